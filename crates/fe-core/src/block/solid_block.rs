@@ -1,0 +1,372 @@
+//! Solid elements with a hyperelastic material.
+
+use hyperelastic::Material;
+use rayon::prelude::*;
+
+use super::kernel::{self, Gradients, Inversion};
+use super::{Block, ElementState, tangent_len};
+use crate::element::{Element, corner_points, jacobian, reference_gradients};
+use crate::error::{FeError, check_length};
+use crate::kinematics::{cauchy_stress, determinant, right_cauchy_green, von_mises};
+use crate::mesh::{CellBlock, Mesh};
+use crate::parallel::{ELEMENTS_PER_TASK, sequential};
+
+/// Elements `E` of one mesh block with the material `M`, in total Lagrangian form.
+///
+/// Gradients of the shape functions and weights are computed once; the memory is about 1.8 kB for a
+/// hexahedron.
+#[derive(Debug, Clone)]
+pub struct SolidBlock<E: Element, M: Material> {
+    name: String,
+    dof_count: usize,
+    connectivity: Vec<u32>,
+    material: M,
+    density: f64,
+    corners: Vec<[E::Nodal; 3]>,
+    gradients: Vec<[E::Nodal; 3]>,
+    volumes: Vec<f64>,
+}
+
+/// An element that failed.
+#[derive(Debug, Clone, Copy)]
+struct Failure {
+    element: usize,
+    inversion: Inversion,
+}
+
+impl<E: Element, M: Material> SolidBlock<E, M> {
+    /// The elements of `mesh.blocks[block_index]` with a material and a density \[kg/m^3\].
+    ///
+    /// # Errors
+    /// [`FeError::Mesh`] if the mesh is invalid, [`FeError::Index`] if there is no such block,
+    /// [`FeError::CellKind`] if its cells are not `E`, [`FeError::Parameter`] unless the density is positive
+    /// and finite.
+    pub fn new<const N: usize>(
+        mesh: &Mesh,
+        block_index: usize,
+        material: M,
+        density: f64,
+    ) -> Result<Self, FeError>
+    where
+        E: Element<Nodal = [f64; N]>,
+    {
+        let block = cell_block(mesh, block_index)?;
+        check_kind::<E>(block)?;
+        mesh.validate()?;
+        check_density(&block.name, density)?;
+        let points = block.cell_count() * E::POINTS;
+        let mut gradients = Vec::with_capacity(points);
+        let mut volumes = Vec::with_capacity(points);
+        let mut corners = Vec::with_capacity(block.cell_count());
+        for cell in block.iter() {
+            let x = corner_points::<N>(&mesh.points, cell);
+            for point in E::rule() {
+                let (gradient, det_j) = reference_gradients::<E, N>(&x, &point.xi);
+                gradients.push(gradient);
+                volumes.push(point.weight * det_j);
+            }
+            corners.push([0, 1, 2].map(|i| x.map(|x| x[i])));
+        }
+        Ok(SolidBlock {
+            name: block.name.clone(),
+            dof_count: 3 * mesh.points.len(),
+            connectivity: block.cells.clone(),
+            material,
+            density,
+            corners,
+            gradients,
+            volumes,
+        })
+    }
+
+    /// The material.
+    pub fn material(&self) -> &M {
+        &self.material
+    }
+
+    /// Density in the reference configuration \[kg/m^3\].
+    pub fn density(&self) -> f64 {
+        self.density
+    }
+
+    /// Reference volume of each quadrature point \[m^3\], element after element.
+    pub fn point_volumes(&self) -> &[f64] {
+        &self.volumes
+    }
+
+    fn cell(&self, element: usize) -> &[u32] {
+        &self.connectivity[element * E::NODES..(element + 1) * E::NODES]
+    }
+
+    fn points_of(&self, element: usize) -> std::ops::Range<usize> {
+        element * E::POINTS..(element + 1) * E::POINTS
+    }
+
+    fn report(&self, failure: Option<Failure>) -> Result<(), FeError> {
+        match failure {
+            None => Ok(()),
+            Some(Failure { element, inversion }) => Err(FeError::Inverted {
+                block: self.name.clone(),
+                element,
+                point: inversion.point,
+                det_f: inversion.det_f,
+            }),
+        }
+    }
+}
+
+impl<E, M, const N: usize> SolidBlock<E, M>
+where
+    E: Element<Nodal = [f64; N]>,
+    M: Material,
+{
+    /// Displacements of an element's nodes \[m\], stored `[i][a]`.
+    #[inline(always)]
+    fn displacements(&self, element: usize, u: &[f64]) -> [[f64; N]; 3] {
+        let mut local = [[0.0; N]; 3];
+        for (a, &node) in self.cell(element).iter().enumerate() {
+            let start = 3 * node as usize;
+            let u = &u[start..start + 3];
+            (0..3).for_each(|i| local[i][a] = u[i]);
+        }
+        local
+    }
+
+    /// Forces of consecutive elements, up to the first that fails.
+    fn force_range(
+        &self,
+        u: &[f64],
+        first: usize,
+        forces: &mut [f64],
+        energies: &mut [f64],
+    ) -> Option<Failure> {
+        let mut local = [[0.0; N]; 3];
+        let slices = forces.chunks_exact_mut(3 * N).zip(energies);
+        for (element, (force, energy)) in (first..).zip(slices) {
+            let points = self.points_of(element);
+            let result = kernel::internal_force(
+                &self.material,
+                &self.displacements(element, u),
+                &self.gradients[points.clone()],
+                &self.volumes[points],
+                &mut local,
+            );
+            match result {
+                Ok(w) => *energy = w,
+                Err(inversion) => return Some(Failure { element, inversion }),
+            }
+            store(&local, force);
+        }
+        None
+    }
+
+    /// Tangents of consecutive elements, up to the first that fails.
+    fn tangent_range(
+        &self,
+        u: &[f64],
+        first: usize,
+        forces: &mut [f64],
+        energies: &mut [f64],
+        tangents: &mut [f64],
+    ) -> Option<Failure> {
+        let mut local = [[0.0; N]; 3];
+        let mut products = kernel::no_products::<N>();
+        let slices = forces
+            .chunks_exact_mut(3 * N)
+            .zip(energies)
+            .zip(tangents.chunks_exact_mut(tangent_len(3, N)));
+        for (element, ((force, energy), tangent)) in (first..).zip(slices) {
+            let points = self.points_of(element);
+            let result = kernel::tangent(
+                &self.material,
+                &self.displacements(element, u),
+                &self.gradients[points.clone()],
+                &self.volumes[points],
+                &mut local,
+                &mut products,
+                tangent,
+            );
+            match result {
+                Ok(w) => *energy = w,
+                Err(inversion) => return Some(Failure { element, inversion }),
+            }
+            store(&local, force);
+        }
+        None
+    }
+
+    fn state(&self, element: usize, u: &[f64]) -> Result<ElementState, Failure> {
+        let u = self.displacements(element, u);
+        let mut state = ElementState {
+            det_f_min: f64::INFINITY,
+            det_f_max: f64::NEG_INFINITY,
+            ..ElementState::default()
+        };
+        let mut volume = 0.0;
+        for (point, q) in self.points_of(element).enumerate() {
+            let fail = |det_f| Failure {
+                element,
+                inversion: Inversion { point, det_f },
+            };
+            let gradients: &Gradients<N> = &self.gradients[q];
+            let (f, det_f) =
+                kernel::deform(&u, gradients, point).map_err(|inversion| fail(inversion.det_f))?;
+            let stress = self.material.stress(&right_cauchy_green(&f));
+            let (_, s) = stress.map_err(|_| fail(det_f))?;
+            let current = det_f * self.volumes[q];
+            let sigma = cauchy_stress(&f, &s);
+            (0..6).for_each(|v| state.cauchy[v] += current * sigma[v]);
+            volume += current;
+            state.det_f_min = state.det_f_min.min(det_f);
+            state.det_f_max = state.det_f_max.max(det_f);
+        }
+        state.cauchy = state.cauchy.map(|s| s / volume);
+        state.von_mises = von_mises(&state.cauchy);
+        Ok(state)
+    }
+}
+
+impl<E, M, const N: usize> Block for SolidBlock<E, M>
+where
+    E: Element<Nodal = [f64; N]>,
+    M: Material,
+{
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn dim(&self) -> usize {
+        3
+    }
+
+    fn element_count(&self) -> usize {
+        self.corners.len()
+    }
+
+    fn nodes_per_element(&self) -> usize {
+        N
+    }
+
+    fn connectivity(&self) -> &[u32] {
+        &self.connectivity
+    }
+
+    fn internal_force(
+        &self,
+        u: &[f64],
+        forces: &mut [f64],
+        energies: &mut [f64],
+    ) -> Result<(), FeError> {
+        let count = self.element_count();
+        check_length("displacement", self.dof_count, u.len())?;
+        check_length("element forces", 3 * N * count, forces.len())?;
+        check_length("element energies", count, energies.len())?;
+        if sequential(count, ELEMENTS_PER_TASK) {
+            return self.report(self.force_range(u, 0, forces, energies));
+        }
+        let failures = forces
+            .par_chunks_mut(3 * N * ELEMENTS_PER_TASK)
+            .zip(energies.par_chunks_mut(ELEMENTS_PER_TASK))
+            .enumerate()
+            .filter_map(|(task, (f, w))| self.force_range(u, task * ELEMENTS_PER_TASK, f, w));
+        self.report(failures.min_by_key(|failure| failure.element))
+    }
+
+    fn tangent(
+        &self,
+        u: &[f64],
+        forces: &mut [f64],
+        energies: &mut [f64],
+        tangents: &mut [f64],
+    ) -> Result<(), FeError> {
+        let (count, len) = (self.element_count(), tangent_len(3, N));
+        check_length("displacement", self.dof_count, u.len())?;
+        check_length("element forces", 3 * N * count, forces.len())?;
+        check_length("element energies", count, energies.len())?;
+        check_length("element tangents", len * count, tangents.len())?;
+        if sequential(count, ELEMENTS_PER_TASK) {
+            return self.report(self.tangent_range(u, 0, forces, energies, tangents));
+        }
+        let failures = forces
+            .par_chunks_mut(3 * N * ELEMENTS_PER_TASK)
+            .zip(energies.par_chunks_mut(ELEMENTS_PER_TASK))
+            .zip(tangents.par_chunks_mut(len * ELEMENTS_PER_TASK))
+            .enumerate()
+            .filter_map(|(task, ((f, w), k))| {
+                self.tangent_range(u, task * ELEMENTS_PER_TASK, f, w, k)
+            });
+        self.report(failures.min_by_key(|failure| failure.element))
+    }
+
+    fn mass(&self, masses: &mut [f64]) {
+        for (corners, mass) in self.corners.iter().zip(masses.chunks_exact_mut(N * N)) {
+            let x = std::array::from_fn(|a| [corners[0][a], corners[1][a], corners[2][a]]);
+            mass.fill(0.0);
+            for point in E::mass_rule() {
+                let det_j = determinant(&jacobian::<E, N>(&x, &point.xi));
+                let shape = E::shape(&point.xi);
+                for a in 0..N {
+                    for b in 0..N {
+                        mass[N * a + b] +=
+                            self.density * point.weight * det_j * shape[a] * shape[b];
+                    }
+                }
+            }
+        }
+    }
+
+    fn stress_state(&self, u: &[f64], states: &mut [ElementState]) -> Result<(), FeError> {
+        check_length("displacement", self.dof_count, u.len())?;
+        check_length("element states", self.element_count(), states.len())?;
+        let failures = states
+            .par_iter_mut()
+            .enumerate()
+            .filter_map(|(element, state)| match self.state(element, u) {
+                Ok(found) => {
+                    *state = found;
+                    None
+                }
+                Err(failure) => Some(failure),
+            });
+        self.report(failures.min_by_key(|failure| failure.element))
+    }
+}
+
+/// Writes forces `[i][a]` in the order of the unknowns.
+#[inline(always)]
+fn store<const N: usize>(local: &[[f64; N]; 3], force: &mut [f64]) {
+    for (a, force) in force.chunks_exact_mut(3).enumerate() {
+        (0..3).for_each(|i| force[i] = local[i][a]);
+    }
+}
+
+pub(super) fn cell_block(mesh: &Mesh, block_index: usize) -> Result<&CellBlock, FeError> {
+    mesh.blocks.get(block_index).ok_or(FeError::Index {
+        what: "block",
+        index: block_index,
+        count: mesh.blocks.len(),
+    })
+}
+
+fn check_kind<E: Element>(block: &CellBlock) -> Result<(), FeError> {
+    if block.kind == E::KIND {
+        return Ok(());
+    }
+    Err(FeError::CellKind {
+        block: block.name.clone(),
+        expected: E::KIND,
+        actual: block.kind,
+    })
+}
+
+fn check_density(block: &str, density: f64) -> Result<(), FeError> {
+    if density > 0.0 && density.is_finite() {
+        return Ok(());
+    }
+    Err(FeError::Parameter {
+        place: format!("block `{block}`"),
+        what: "density [kg/m^3]",
+        value: density,
+        bound: "must be positive and finite",
+    })
+}

@@ -1,0 +1,103 @@
+//! Properties of shape functions, rules and facets.
+
+use super::{ROUND_OFF, Violation, same, same_entries};
+use crate::element::{Element, jacobian};
+use crate::kinematics::determinant;
+use crate::quadrature::QuadraturePoint;
+use crate::vector::{cross, dot, minus};
+
+/// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields, and
+/// have the right derivatives; both rules measure the volume; facets are closed and point outward.
+///
+/// # Errors
+/// The first [`Violation`] found.
+pub fn check_element<E, const N: usize>() -> Result<(), Violation>
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    check_sizes::<E, N>()?;
+    for (a, xi) in E::reference_nodes().iter().enumerate() {
+        let mut expected = [0.0; N];
+        expected[a] = 1.0;
+        same_entries("one at its node", &E::shape(xi), &expected, ROUND_OFF)?;
+    }
+    for point in E::rule().iter().chain(E::mass_rule()) {
+        check_shape::<E, N>(&point.xi)?;
+    }
+    check_facets::<E, N>()
+}
+
+fn check_sizes<E: Element, const N: usize>() -> Result<(), Violation> {
+    let sizes = [
+        ("number of nodes", E::NODES, N),
+        ("nodes of the cell kind", E::KIND.node_count(), N),
+        ("reference nodes", E::reference_nodes().len(), N),
+        ("points of the rule", E::rule().len(), E::POINTS),
+    ];
+    for (property, found, expected) in sizes {
+        let place = || format!("{:?}", E::KIND);
+        same(property, place, found as f64, expected as f64, 0.0)?;
+    }
+    let volume = |rule: &[QuadraturePoint]| rule.iter().map(|q| q.weight).sum::<f64>();
+    let (found, expected) = (volume(E::mass_rule()), volume(E::rule()));
+    same("sum of weights", String::new, found, expected, ROUND_OFF)
+}
+
+fn check_shape<E, const N: usize>(xi: &[f64; 3]) -> Result<(), Violation>
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    let place = || format!("xi = {xi:?}");
+    let (shape, derivatives) = (E::shape(xi), E::shape_derivatives(xi));
+    let total = shape.iter().sum();
+    same("partition of unity", place, total, 1.0, ROUND_OFF)?;
+    for i in 0..3 {
+        let nodes = E::reference_nodes().iter();
+        let found = nodes.zip(&shape).map(|(x, n)| n * x[i]).sum();
+        same("linear completeness", place, found, xi[i], ROUND_OFF)?;
+        let h = 1e-5;
+        let at = |step: f64| {
+            let mut moved = *xi;
+            moved[i] += step;
+            E::shape(&moved)
+        };
+        let (after, before) = (at(h), at(-h));
+        for a in 0..N {
+            let difference = (after[a] - before[a]) / (2.0 * h);
+            let found = derivatives[i][a];
+            same(
+                "derivative of a shape function",
+                place,
+                found,
+                difference,
+                1e-8,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// The facets of the reference cell enclose its volume: by the divergence theorem, `3 V = sum of x . n dA`.
+fn check_facets<E, const N: usize>() -> Result<(), Violation>
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    let x: [[f64; 3]; N] = std::array::from_fn(|a| E::reference_nodes()[a]);
+    let mut area = [0.0; 3];
+    let mut flux = 0.0;
+    for facet in E::KIND.facets() {
+        // Flat facets, as a fan of triangles around their first node.
+        for pair in facet[1..].windows(2) {
+            let [p, q, r] = [facet[0], pair[0], pair[1]].map(|a| x[a]);
+            let normal = cross(&minus(&q, &p), &minus(&r, &p));
+            (0..3).for_each(|i| area[i] += 0.5 * normal[i]);
+            flux += 0.5 * dot(&p, &normal);
+        }
+    }
+    same_entries("closed facets", &area, &[0.0; 3], ROUND_OFF)?;
+    let mut volume = 0.0;
+    for point in E::rule() {
+        volume += point.weight * determinant(&jacobian::<E, N>(&x, &point.xi));
+    }
+    same("outward facets", String::new, flux / 3.0, volume, ROUND_OFF)
+}

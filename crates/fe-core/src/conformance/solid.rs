@@ -1,0 +1,96 @@
+//! Properties of assembled solids.
+
+use super::{ROUND_OFF, Violation, largest, same, same_entries};
+use crate::block::ElementState;
+use crate::solid::Solid;
+
+/// Patch test: under the homogeneous displacement gradient `h` \[-\] no node inside the body feels a force, and
+/// blocks of one material have one stress. The mesh needs nodes inside, and should be distorted there.
+///
+/// # Errors
+/// The first [`Violation`] found.
+pub fn check_patch(solid: &Solid, h: &[[f64; 3]; 3]) -> Result<(), Violation> {
+    let dim = solid.dim();
+    let affine = |x: &[f64; 3]| {
+        let x = *x;
+        (0..dim).map(move |i| (0..dim).map(|j| h[i][j] * x[j]).sum::<f64>())
+    };
+    let u: Vec<f64> = solid.mesh().points.iter().flat_map(affine).collect();
+    let mut f = vec![0.0; solid.dof_count()];
+    solid.internal_force(&u, &mut solid.workspace(), &mut f)?;
+    let scale = largest(&f);
+    let mut inside = vec![true; solid.node_count()];
+    for facet in solid.mesh().boundary_facets() {
+        facet
+            .nodes()
+            .iter()
+            .for_each(|&n| inside[n as usize] = false);
+    }
+    if !inside.contains(&true) || scale == 0.0 {
+        return Err(Violation::Input {
+            property: "the patch test",
+            reason: "the mesh needs nodes inside, and the gradient a stress",
+        });
+    }
+    for node in (0..solid.node_count()).filter(|&node| inside[node]) {
+        let force = &f[dim * node..dim * (node + 1)];
+        same_entries("patch test", force, &[0.0; 3], ROUND_OFF * scale)?;
+    }
+    check_uniform_stress(solid, &u)
+}
+
+fn check_uniform_stress(solid: &Solid, u: &[f64]) -> Result<(), Violation> {
+    for block in solid.blocks() {
+        let mut states = vec![ElementState::default(); block.element_count()];
+        block.stress_state(u, &mut states)?;
+        let Some(first) = states.first().copied() else {
+            continue;
+        };
+        let tolerance = ROUND_OFF * 100.0 * largest(&first.cauchy);
+        for state in &states {
+            same_entries("uniform stress", &state.cauchy, &first.cauchy, tolerance)?;
+            let (low, high) = (state.det_f_min, state.det_f_max);
+            same(
+                "uniform volume change",
+                String::new,
+                low,
+                high,
+                ROUND_OFF * high,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// Consistent and lumped mass have the expected total \[kg\], also as inertia of a translation; each node has a
+/// positive mass.
+///
+/// # Errors
+/// The first [`Violation`] found.
+pub fn check_mass(solid: &Solid, expected: f64) -> Result<(), Violation> {
+    let dim = solid.dim();
+    for mass in [solid.consistent_mass(), solid.lumped_mass()] {
+        let tolerance = ROUND_OFF * expected;
+        same("total mass", String::new, mass.total(), expected, tolerance)?;
+        for i in 0..dim {
+            let v: Vec<f64> = (0..solid.dof_count())
+                .map(|dof| f64::from(u8::from(dof % dim == i)))
+                .collect();
+            let place = || format!("component {i}");
+            let found = mass.quadratic(&v);
+            same(
+                "inertia of a translation",
+                place,
+                found,
+                expected,
+                tolerance,
+            )?;
+        }
+        for (node, m) in mass.row_sums().into_iter().enumerate() {
+            let place = || format!("node {node}");
+            let positive = f64::from(u8::from(m > 0.0));
+            same("positive mass", place, positive, 1.0, 0.0)?;
+        }
+    }
+    Ok(())
+}

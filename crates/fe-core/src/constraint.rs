@@ -1,0 +1,150 @@
+//! What acts on a solid from outside: prescribed motion, dead tractions, gravity.
+//!
+//! Vectors are flat, `dim * node + component`. Nodes must exist; `check` says if they do.
+
+use crate::error::FeError;
+use crate::mass::MassMatrix;
+use crate::mesh::{Facet, Mesh};
+use crate::motion::{Motion, Table};
+use crate::surface::Surface;
+
+/// Nodes whose displacement is prescribed, in some or all components.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dirichlet {
+    /// Nodes, sorted.
+    pub nodes: Vec<u32>,
+    /// Components that are prescribed; the others are free.
+    pub components: [bool; 3],
+    /// Motion of the material points.
+    pub motion: Motion,
+    /// Name, for errors and output.
+    pub name: String,
+}
+
+impl Dirichlet {
+    /// Nodes held in place in all components.
+    pub fn clamped(name: &str, nodes: Vec<u32>) -> Dirichlet {
+        Dirichlet {
+            nodes,
+            components: [true; 3],
+            motion: Motion::still(),
+            name: name.to_owned(),
+        }
+    }
+
+    /// Checks that all nodes exist.
+    ///
+    /// # Errors
+    /// [`FeError::Index`] for the first that does not.
+    pub fn check(&self, mesh: &Mesh) -> Result<(), FeError> {
+        check_nodes(self.nodes.iter(), mesh)
+    }
+
+    /// Prescribed degrees of freedom, in the order of the nodes.
+    pub fn dofs(&self, dim: usize) -> impl Iterator<Item = usize> + '_ {
+        let components = (0..dim).filter(|&i| self.components[i]);
+        let components: Vec<usize> = components.collect();
+        let of_node = move |&node: &u32| {
+            let start = dim * node as usize;
+            components.clone().into_iter().map(move |i| start + i)
+        };
+        self.nodes.iter().flat_map(of_node)
+    }
+
+    /// Writes the displacement at time `t` \[s\] into `u` \[m\], prescribed entries only.
+    pub fn set_displacement(&self, mesh: &Mesh, t: f64, u: &mut [f64]) {
+        self.set(mesh, u, |x| self.motion.displacement(x, t));
+    }
+
+    /// Writes the velocity at time `t` \[s\] into `v` \[m/s\], prescribed entries only.
+    pub fn set_velocity(&self, mesh: &Mesh, t: f64, v: &mut [f64]) {
+        self.set(mesh, v, |x| self.motion.velocity(x, t));
+    }
+
+    fn set(&self, mesh: &Mesh, target: &mut [f64], value: impl Fn([f64; 3]) -> [f64; 3]) {
+        for &node in &self.nodes {
+            let value = value(mesh.points[node as usize]);
+            for i in (0..mesh.dim).filter(|&i| self.components[i]) {
+                target[mesh.dim * node as usize + i] = value[i];
+            }
+        }
+    }
+}
+
+/// A traction that keeps its direction and acts on the reference area.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DeadTraction {
+    /// Facets it acts on.
+    pub facets: Vec<Facet>,
+    /// Force per reference area \[Pa\].
+    pub traction: [f64; 3],
+    /// Factor over time \[-\].
+    pub factor: Table,
+}
+
+impl DeadTraction {
+    /// Nodal forces \[N; N per metre of thickness in the plane\] for a factor of one.
+    ///
+    /// # Errors
+    /// [`FeError::Surface`] if there are no facets, [`FeError::Index`] if a node does not exist,
+    /// [`FeError::Parameter`] if the traction is not finite.
+    pub fn nodal_forces(&self, mesh: &Mesh) -> Result<Vec<f64>, FeError> {
+        check_finite("dead traction", "traction [Pa]", &self.traction)?;
+        let surface = Surface::new(self.facets.clone())?;
+        check_nodes(surface.nodes.iter(), mesh)?;
+        let mut forces = vec![0.0; mesh.dim * mesh.points.len()];
+        let areas = surface.tributary_areas(&mesh.points);
+        for (&node, area) in surface.nodes.iter().zip(areas) {
+            for i in 0..mesh.dim {
+                forces[mesh.dim * node as usize + i] = area * self.traction[i];
+            }
+        }
+        Ok(forces)
+    }
+}
+
+/// Weight: a uniform acceleration that acts on all mass.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gravity {
+    /// Acceleration \[m/s^2\].
+    pub acceleration: [f64; 3],
+    /// Factor over time \[-\].
+    pub factor: Table,
+}
+
+impl Gravity {
+    /// Nodal forces \[N\] for a factor of one: `M` times the uniform acceleration.
+    ///
+    /// # Errors
+    /// [`FeError::Parameter`] if the acceleration is not finite.
+    pub fn nodal_forces(&self, mass: &MassMatrix) -> Result<Vec<f64>, FeError> {
+        check_finite("gravity", "acceleration [m/s^2]", &self.acceleration)?;
+        let components = &self.acceleration[..mass.dim()];
+        let weight = |m: f64| components.iter().map(move |g| m * g);
+        Ok(mass.row_sums().into_iter().flat_map(weight).collect())
+    }
+}
+
+fn check_nodes<'a>(mut nodes: impl Iterator<Item = &'a u32>, mesh: &Mesh) -> Result<(), FeError> {
+    let count = mesh.points.len();
+    match nodes.find(|&&node| node as usize >= count) {
+        None => Ok(()),
+        Some(&node) => Err(FeError::Index {
+            what: "node",
+            index: node as usize,
+            count,
+        }),
+    }
+}
+
+fn check_finite(place: &str, what: &'static str, values: &[f64; 3]) -> Result<(), FeError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(&value) => Err(FeError::Parameter {
+            place: place.to_owned(),
+            what,
+            value,
+            bound: "must be finite",
+        }),
+    }
+}

@@ -1,0 +1,104 @@
+//! Isoparametric elements: shape functions, their derivatives and quadrature.
+
+pub mod hex8;
+pub mod tet4;
+
+use std::fmt::Debug;
+
+pub use hex8::Hex8;
+pub use tet4::Tet4;
+
+use crate::mesh::CellKind;
+use crate::quadrature::QuadraturePoint;
+
+/// Values of the shape functions: an array `[f64; N]`.
+pub trait Nodal: Copy + Debug + Send + Sync + AsRef<[f64]> + 'static {}
+
+impl<const N: usize> Nodal for [f64; N] {}
+
+/// Shape functions and quadrature of a solid element in space.
+///
+/// A new element is one file with this implementation and one line in [`CellKind`]; the battery
+/// [`crate::conformance::check_element`] tells what is wrong with it.
+pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
+    /// Kind of the cell.
+    const KIND: CellKind;
+    /// Number of nodes.
+    const NODES: usize;
+    /// Number of quadrature points of the force and the tangent.
+    const POINTS: usize;
+    /// `[f64; NODES]`.
+    type Nodal: Nodal;
+
+    /// Reference coordinates of the nodes \[-\], VTK order.
+    fn reference_nodes() -> &'static [[f64; 3]];
+    /// Shape functions at `xi` \[-\].
+    fn shape(xi: &[f64; 3]) -> Self::Nodal;
+    /// Derivatives `dN_a/dxi_j` at `xi` \[-\], stored `[j][a]`.
+    fn shape_derivatives(xi: &[f64; 3]) -> [Self::Nodal; 3];
+    /// Rule of the force and the tangent, `POINTS` long.
+    fn rule() -> &'static [QuadraturePoint];
+    /// Rule of the mass: exact for products of two shape functions, also on distorted cells.
+    fn mass_rule() -> &'static [QuadraturePoint];
+}
+
+/// Coordinates of an element's nodes \[m\].
+///
+/// Indices must be in range, which [`crate::Mesh::validate`] ensures.
+pub fn corner_points<const N: usize>(points: &[[f64; 3]], cell: &[u32]) -> [[f64; 3]; N] {
+    std::array::from_fn(|a| points[cell[a] as usize])
+}
+
+/// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, stored `[i][j]`.
+pub fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> [[f64; 3]; 3]
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    let dn = E::shape_derivatives(xi);
+    let mut jac = [[0.0; 3]; 3];
+    for i in 0..3 {
+        for j in 0..3 {
+            for a in 0..N {
+                jac[i][j] += points[a][i] * dn[j][a];
+            }
+        }
+    }
+    jac
+}
+
+/// Gradients `dN_a/dX_J` \[1/m\] stored `[J][a]`, and the determinant of the Jacobian \[m^3\].
+///
+/// The gradients are meaningless unless the determinant is positive.
+pub fn reference_gradients<E, const N: usize>(
+    points: &[[f64; 3]; N],
+    xi: &[f64; 3],
+) -> ([[f64; N]; 3], f64)
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    let dn = E::shape_derivatives(xi);
+    let (inverse, det) = crate::kinematics::inverse(&jacobian::<E, N>(points, xi));
+    let mut gradients = [[0.0; N]; 3];
+    for (j, row) in gradients.iter_mut().enumerate() {
+        for a in 0..N {
+            row[a] = dn[0][a] * inverse[0][j] + dn[1][a] * inverse[1][j] + dn[2][a] * inverse[2][j];
+        }
+    }
+    (gradients, det)
+}
+
+/// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3\].
+pub(crate) fn bad_jacobian<E, const N: usize>(
+    points: &[[f64; 3]],
+    cell: &[u32],
+) -> Option<(usize, f64)>
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    let corners = corner_points::<N>(points, cell);
+    E::rule().iter().enumerate().find_map(|(q, point)| {
+        let det = crate::kinematics::determinant(&jacobian::<E, N>(&corners, &point.xi));
+        let good = det > 0.0 && det.is_finite();
+        (!good).then_some((q, det))
+    })
+}

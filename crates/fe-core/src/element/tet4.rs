@@ -1,0 +1,51 @@
+//! Linear tetrahedron, 4 nodes, 1 point.
+
+use super::Element;
+use crate::mesh::CellKind;
+use crate::quadrature::{QuadraturePoint, TETRAHEDRON_1, TETRAHEDRON_4};
+
+/// Linear tetrahedron on the corner of the unit cube.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Tet4;
+
+/// Corners of the reference tetrahedron, VTK order.
+pub const REFERENCE_NODES: [[f64; 3]; 4] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+/// Local nodes of the facets, outward.
+pub static FACETS: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+
+impl Element for Tet4 {
+    const KIND: CellKind = CellKind::Tet4;
+    const NODES: usize = 4;
+    const POINTS: usize = 1;
+    type Nodal = [f64; 4];
+
+    fn reference_nodes() -> &'static [[f64; 3]] {
+        &REFERENCE_NODES
+    }
+
+    fn shape(xi: &[f64; 3]) -> [f64; 4] {
+        [1.0 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]]
+    }
+
+    fn shape_derivatives(_xi: &[f64; 3]) -> [[f64; 4]; 3] {
+        [
+            [-1.0, 1.0, 0.0, 0.0],
+            [-1.0, 0.0, 1.0, 0.0],
+            [-1.0, 0.0, 0.0, 1.0],
+        ]
+    }
+
+    fn rule() -> &'static [QuadraturePoint] {
+        &TETRAHEDRON_1
+    }
+
+    fn mass_rule() -> &'static [QuadraturePoint] {
+        &TETRAHEDRON_4
+    }
+}

@@ -1,0 +1,244 @@
+//! Errors of this crate: what is wrong, where, and what to try.
+
+use crate::mesh::CellKind;
+
+/// What makes a mesh unusable.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// The number of unknowns per node is neither 2 nor 3.
+    #[error("a mesh has 2 or 3 unknowns a node, not {dim}")]
+    Dimension {
+        /// The refused value.
+        dim: usize,
+    },
+    /// A mesh without points or without cells.
+    #[error("the mesh has no {what}")]
+    Empty {
+        /// `points` or `cells`.
+        what: &'static str,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("point {node} has a coordinate that is not finite: {point:?}")]
+    PointNotFinite {
+        /// Index of the point.
+        node: usize,
+        /// Its coordinates \[m\].
+        point: [f64; 3],
+    },
+    /// A block of cells of another dimension than the mesh.
+    #[error("block `{block}` has {kind:?} cells, which do not fit a mesh of dimension {dim}")]
+    CellDimension {
+        /// Name of the block.
+        block: String,
+        /// Kind of its cells.
+        kind: CellKind,
+        /// Dimension of the mesh.
+        dim: usize,
+    },
+    /// The connectivity is not a whole number of cells.
+    #[error(
+        "block `{block}`: {length} node indices are not a multiple of the {nodes} nodes of a cell"
+    )]
+    Connectivity {
+        /// Name of the block.
+        block: String,
+        /// Length of the connectivity.
+        length: usize,
+        /// Nodes per cell.
+        nodes: usize,
+    },
+    /// An element refers to a point that does not exist.
+    #[error(
+        "block `{block}`, element {element}: node {node} does not exist, the mesh has {points} points"
+    )]
+    NodeOutOfRange {
+        /// Name of the block.
+        block: String,
+        /// Element in the block.
+        element: usize,
+        /// The index that is too large.
+        node: u32,
+        /// Number of points of the mesh.
+        points: usize,
+    },
+    /// An element uses one point twice.
+    #[error("block `{block}`, element {element}: node {node} appears twice")]
+    RepeatedNode {
+        /// Name of the block.
+        block: String,
+        /// Element in the block.
+        element: usize,
+        /// The node.
+        node: u32,
+    },
+    /// An element is inverted or flat in the reference configuration.
+    #[error(
+        "block `{block}`, element {element}: Jacobian {det_j:e} at quadrature point {point} is not positive; \
+         check the node order (VTK) and the shape of the element"
+    )]
+    Jacobian {
+        /// Name of the block.
+        block: String,
+        /// Element in the block.
+        element: usize,
+        /// Quadrature point in the element.
+        point: usize,
+        /// Determinant of dX/dxi \[m^3, m^2 in the plane\].
+        det_j: f64,
+    },
+    /// A point that no element uses would have no stiffness and no mass.
+    #[error("node {node} belongs to no element; remove it from the mesh")]
+    OrphanNode {
+        /// The node.
+        node: usize,
+    },
+    /// A node set is not strictly increasing, or refers to a point that does not exist.
+    #[error(
+        "node set `{set}`: entry {node} is out of order or out of range (sets are sorted, without repeats)"
+    )]
+    NodeSet {
+        /// Name of the set.
+        set: String,
+        /// The offending entry.
+        node: u32,
+    },
+    /// A facet has an impossible number of nodes, or refers to a point that does not exist.
+    #[error("facet set `{set}`: facet {facet} has a wrong number of nodes or a node out of range")]
+    FacetSet {
+        /// Name of the set.
+        set: String,
+        /// Index of the facet in the set.
+        facet: usize,
+    },
+    /// A set that the mesh does not have.
+    #[error("the mesh has no {what} set `{set}`; it has: {known}")]
+    UnknownSet {
+        /// `node` or `facet`.
+        what: &'static str,
+        /// The name asked for.
+        set: String,
+        /// The names there are.
+        known: String,
+    },
+    /// A structured mesh that cannot be generated.
+    #[error("box mesh, axis {axis}: {what} = {value}, {bound}")]
+    Box {
+        /// Axis, 0 to 2.
+        axis: usize,
+        /// The quantity.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+        /// The bound that it violates.
+        bound: &'static str,
+    },
+}
+
+/// What can go wrong in this crate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FeError {
+    /// The mesh is unusable.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// An element is turned inside out, or the displacement is not finite.
+    #[error(
+        "block `{block}`, element {element}, quadrature point {point}: det F = {det_f:e} must be positive and finite; \
+         take a smaller step, or a finer mesh where the deformation is large"
+    )]
+    Inverted {
+        /// Name of the block.
+        block: String,
+        /// Element in the block.
+        element: usize,
+        /// Quadrature point in the element.
+        point: usize,
+        /// Determinant of the deformation gradient \[-\].
+        det_f: f64,
+    },
+    /// A parameter outside its physical bounds.
+    #[error("{place}: {what} = {value:e}, {bound}")]
+    Parameter {
+        /// What the parameter belongs to.
+        place: String,
+        /// The parameter, with its unit.
+        what: &'static str,
+        /// The refused value.
+        value: f64,
+        /// The bound.
+        bound: &'static str,
+    },
+    /// An index of a block, a node or a degree of freedom that does not exist.
+    #[error("{what} {index} does not exist, there are {count}")]
+    Index {
+        /// What is counted.
+        what: &'static str,
+        /// The index asked for.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// An array of the wrong length.
+    #[error("{what} has {actual} entries, expected {expected}")]
+    Length {
+        /// The array.
+        what: &'static str,
+        /// Length expected.
+        expected: usize,
+        /// Length given.
+        actual: usize,
+    },
+    /// Elements of another kind than the cells of the block.
+    #[error("block `{block}` has {actual:?} cells, the element is {expected:?}")]
+    CellKind {
+        /// Name of the block.
+        block: String,
+        /// Kind of the element.
+        expected: CellKind,
+        /// Kind of the cells.
+        actual: CellKind,
+    },
+    /// More entries than a 32-bit index can address.
+    #[error("{what}: {count} entries are more than 32-bit indices can address; use a coarser mesh")]
+    TooLarge {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+    /// A table of time data that is empty, not finite or not in order.
+    #[error("table, entry {entry}: {reason}")]
+    Table {
+        /// Index of the entry.
+        entry: usize,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// A surface without facets, or with facets of different dimensions.
+    #[error("surface: {reason}")]
+    Surface {
+        /// What is wrong.
+        reason: &'static str,
+    },
+}
+
+/// Checks the length of an array argument.
+///
+/// # Errors
+/// [`FeError::Length`] if it differs.
+pub(crate) fn check_length(
+    what: &'static str,
+    expected: usize,
+    actual: usize,
+) -> Result<(), FeError> {
+    if expected == actual {
+        Ok(())
+    } else {
+        Err(FeError::Length {
+            what,
+            expected,
+            actual,
+        })
+    }
+}

@@ -1,0 +1,38 @@
+//! Finite elements for solids in large deformation (total Lagrangian formulation).
+//!
+//! A [`Mesh`] holds points, cells and named sets. Each cell block becomes a [`Block`]: elements of one
+//! kind with one material, whose kernels write per-element forces and tangents. A [`Solid`] gathers them
+//! in a fixed order, so that results are the same bits for any number of threads. [`SymmetricPattern`]
+//! turns element tangents into the lower triangle of a sparse matrix.
+//!
+//! Unknowns are displacements \[m\], stored flat: component `i` of node `a` is entry `dim * a + i`.
+//! Second-order symmetric tensors are stored as 11 22 33 12 13 23.
+
+pub mod block;
+pub mod conformance;
+pub mod constraint;
+pub mod element;
+pub mod error;
+pub mod kinematics;
+pub mod mass;
+pub mod mesh;
+pub mod motion;
+pub mod pattern;
+pub mod quadrature;
+pub mod solid;
+pub mod surface;
+
+mod parallel;
+mod vector;
+
+pub use block::{Block, ElementState, SolidBlock, solid_block};
+pub use constraint::{DeadTraction, Dirichlet, Gravity};
+pub use element::{Element, Hex8, Tet4};
+pub use error::{FeError, MeshError};
+pub use mass::MassMatrix;
+pub use mesh::generate::BoxMesh;
+pub use mesh::{CellBlock, CellKind, Facet, Mesh};
+pub use motion::{Interpolation, Motion, Rotation, Table};
+pub use pattern::{SymmetricPattern, node_adjacency};
+pub use solid::{ElementWorkspace, Solid};
+pub use surface::Surface;

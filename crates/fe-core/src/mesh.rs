@@ -1,0 +1,371 @@
+//! Meshes: points, blocks of cells, and named sets of nodes and facets.
+
+pub mod generate;
+
+use std::collections::BTreeMap;
+
+use crate::element::{self, Hex8, Tet4};
+use crate::error::MeshError;
+
+/// Shape of a cell, with VTK node order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum CellKind {
+    /// Trilinear hexahedron.
+    Hex8,
+    /// Linear tetrahedron.
+    Tet4,
+}
+
+impl CellKind {
+    /// Nodes of a cell.
+    pub fn node_count(self) -> usize {
+        match self {
+            CellKind::Hex8 => 8,
+            CellKind::Tet4 => 4,
+        }
+    }
+
+    /// Dimension of the cell, 2 or 3.
+    pub fn dim(self) -> usize {
+        match self {
+            CellKind::Hex8 | CellKind::Tet4 => 3,
+        }
+    }
+
+    /// Local nodes of each facet, outward by the right-hand rule.
+    pub fn facets(self) -> &'static [&'static [usize]] {
+        match self {
+            CellKind::Hex8 => &element::hex8::FACETS,
+            CellKind::Tet4 => &element::tet4::FACETS,
+        }
+    }
+
+    /// VTK's number for the cell type.
+    pub fn vtk_type(self) -> u8 {
+        match self {
+            CellKind::Hex8 => 12,
+            CellKind::Tet4 => 10,
+        }
+    }
+
+    /// First quadrature point whose Jacobian is not positive, with that Jacobian \[m^dim\].
+    fn bad_jacobian(self, points: &[[f64; 3]], cell: &[u32]) -> Option<(usize, f64)> {
+        match self {
+            CellKind::Hex8 => element::bad_jacobian::<Hex8, 8>(points, cell),
+            CellKind::Tet4 => element::bad_jacobian::<Tet4, 4>(points, cell),
+        }
+    }
+}
+
+/// Cells of one kind that share a material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellBlock {
+    /// Name, used in errors and output.
+    pub name: String,
+    /// Kind of all cells of the block.
+    pub kind: CellKind,
+    /// Node indices, cell after cell, in VTK order.
+    pub cells: Vec<u32>,
+}
+
+impl CellBlock {
+    /// Number of cells.
+    pub fn cell_count(&self) -> usize {
+        self.cells.len() / self.kind.node_count()
+    }
+
+    /// The cells' node lists, in order.
+    pub fn iter(&self) -> std::slice::ChunksExact<'_, u32> {
+        self.cells.chunks_exact(self.kind.node_count())
+    }
+}
+
+/// A piece of boundary: 3 or 4 nodes in space, 2 in the plane.
+///
+/// Seen from outside the body the nodes turn counter-clockwise (right-hand rule); in the plane the
+/// body lies to the left of the way from the first node to the second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Facet {
+    /// Node indices; entries from `count` on are `u32::MAX`.
+    pub nodes: [u32; 4],
+    /// Number of nodes: 2, 3 or 4.
+    pub count: u8,
+}
+
+impl Facet {
+    /// An edge of a plane body.
+    pub fn edge(nodes: [u32; 2]) -> Facet {
+        Facet {
+            nodes: [nodes[0], nodes[1], u32::MAX, u32::MAX],
+            count: 2,
+        }
+    }
+
+    /// A triangle.
+    pub fn triangle(nodes: [u32; 3]) -> Facet {
+        Facet {
+            nodes: [nodes[0], nodes[1], nodes[2], u32::MAX],
+            count: 3,
+        }
+    }
+
+    /// A quadrilateral.
+    pub fn quad(nodes: [u32; 4]) -> Facet {
+        Facet { nodes, count: 4 }
+    }
+
+    /// The nodes that are used.
+    pub fn nodes(&self) -> &[u32] {
+        &self.nodes[..usize::from(self.count).min(4)]
+    }
+
+    /// Facet of a cell from its local node numbers.
+    fn of_cell(cell: &[u32], local: &[usize]) -> Facet {
+        let mut nodes = [u32::MAX; 4];
+        for (slot, &a) in nodes.iter_mut().zip(local) {
+            *slot = cell[a];
+        }
+        Facet {
+            nodes,
+            count: local.len() as u8,
+        }
+    }
+
+    /// Nodes in increasing order: equal for the two cells that share the facet.
+    fn key(&self) -> [u32; 4] {
+        let mut key = self.nodes;
+        key.sort_unstable();
+        key
+    }
+}
+
+/// Points, cells and named sets. Everything public: a mesh is plain data until it is validated.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// Unknowns per node: 3 in space, 2 in the plane (then the third coordinate is ignored).
+    pub dim: usize,
+    /// Reference coordinates \[m\].
+    pub points: Vec<[f64; 3]>,
+    /// Blocks of cells.
+    pub blocks: Vec<CellBlock>,
+    /// Named node lists, sorted, without repeats.
+    pub node_sets: BTreeMap<String, Vec<u32>>,
+    /// Named facet lists, outward.
+    pub facet_sets: BTreeMap<String, Vec<Facet>>,
+}
+
+impl Mesh {
+    /// Adds another mesh with its own nodes. Its set `name` becomes `prefix.name`; blocks keep their names.
+    /// An empty `prefix` keeps the names of sets too. A set that exists already is extended.
+    pub fn append(&mut self, prefix: &str, other: Mesh) {
+        let shift = self.points.len() as u32;
+        if self.blocks.is_empty() && self.points.is_empty() {
+            self.dim = other.dim;
+        }
+        let rename = |name: String| match prefix {
+            "" => name,
+            _ => format!("{prefix}.{name}"),
+        };
+        self.points.extend(other.points);
+        for mut block in other.blocks {
+            block.cells.iter_mut().for_each(|node| *node += shift);
+            self.blocks.push(block);
+        }
+        for (name, nodes) in other.node_sets {
+            let set = self.node_sets.entry(rename(name)).or_default();
+            set.extend(nodes.into_iter().map(|node| node + shift));
+        }
+        for (name, facets) in other.facet_sets {
+            let set = self.facet_sets.entry(rename(name)).or_default();
+            set.extend(facets.into_iter().map(|mut facet| {
+                let count = facet.nodes().len();
+                facet.nodes[..count].iter_mut().for_each(|n| *n += shift);
+                facet
+            }));
+        }
+    }
+
+    /// The node set of that name.
+    ///
+    /// # Errors
+    /// [`MeshError::UnknownSet`] with the names there are.
+    pub fn node_set(&self, name: &str) -> Result<&[u32], MeshError> {
+        let found = self.node_sets.get(name).map(Vec::as_slice);
+        found.ok_or_else(|| unknown_set("node", name, self.node_sets.keys()))
+    }
+
+    /// The facet set of that name.
+    ///
+    /// # Errors
+    /// [`MeshError::UnknownSet`] with the names there are.
+    pub fn facet_set(&self, name: &str) -> Result<&[Facet], MeshError> {
+        let found = self.facet_sets.get(name).map(Vec::as_slice);
+        found.ok_or_else(|| unknown_set("facet", name, self.facet_sets.keys()))
+    }
+
+    /// All facets that belong to one cell only, outward, in the order of blocks and cells.
+    pub fn boundary_facets(&self) -> Vec<Facet> {
+        let mut all = Vec::new();
+        for block in &self.blocks {
+            for cell in block.iter() {
+                for local in block.kind.facets() {
+                    let facet = Facet::of_cell(cell, local);
+                    all.push((facet.key(), all.len(), facet));
+                }
+            }
+        }
+        all.sort_unstable_by_key(|(key, order, _)| (*key, *order));
+        let mut single: Vec<_> = all
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter(|shared| shared.len() == 1)
+            .map(|shared| (shared[0].1, shared[0].2))
+            .collect();
+        single.sort_unstable_by_key(|(order, _)| *order);
+        single.into_iter().map(|(_, facet)| facet).collect()
+    }
+
+    /// Checks all that the assembly relies on: finite points, indices in range, positive Jacobians at the
+    /// quadrature points, no node without element, sorted sets.
+    ///
+    /// # Errors
+    /// The first defect found, with block and element.
+    pub fn validate(&self) -> Result<(), MeshError> {
+        if self.dim != 2 && self.dim != 3 {
+            return Err(MeshError::Dimension { dim: self.dim });
+        }
+        self.validate_points()?;
+        let mut used = vec![false; self.points.len()];
+        for block in &self.blocks {
+            self.validate_block(block, &mut used)?;
+        }
+        if let Some(node) = used.iter().position(|used| !used) {
+            return Err(MeshError::OrphanNode { node });
+        }
+        self.validate_node_sets()?;
+        self.validate_facet_sets()
+    }
+
+    fn validate_points(&self) -> Result<(), MeshError> {
+        if self.points.is_empty() {
+            return Err(MeshError::Empty { what: "points" });
+        }
+        if self.blocks.iter().all(|block| block.cells.is_empty()) {
+            return Err(MeshError::Empty { what: "cells" });
+        }
+        let finite = |point: &[f64; 3]| point.iter().all(|x| x.is_finite());
+        match self.points.iter().position(|point| !finite(point)) {
+            Some(node) => Err(MeshError::PointNotFinite {
+                node,
+                point: self.points[node],
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_block(&self, block: &CellBlock, used: &mut [bool]) -> Result<(), MeshError> {
+        let name = || block.name.clone();
+        let (kind, nodes) = (block.kind, block.kind.node_count());
+        if kind.dim() != self.dim {
+            return Err(MeshError::CellDimension {
+                block: name(),
+                kind,
+                dim: self.dim,
+            });
+        }
+        if !block.cells.len().is_multiple_of(nodes) {
+            return Err(MeshError::Connectivity {
+                block: name(),
+                length: block.cells.len(),
+                nodes,
+            });
+        }
+        for (element, cell) in block.iter().enumerate() {
+            self.validate_cell(block, element, cell)?;
+            cell.iter().for_each(|&node| used[node as usize] = true);
+        }
+        Ok(())
+    }
+
+    fn validate_cell(
+        &self,
+        block: &CellBlock,
+        element: usize,
+        cell: &[u32],
+    ) -> Result<(), MeshError> {
+        let name = || block.name.clone();
+        let points = self.points.len();
+        if let Some(&node) = cell.iter().find(|&&node| node as usize >= points) {
+            return Err(MeshError::NodeOutOfRange {
+                block: name(),
+                element,
+                node,
+                points,
+            });
+        }
+        let repeated = (1..cell.len()).find(|&a| cell[..a].contains(&cell[a]));
+        if let Some(a) = repeated {
+            return Err(MeshError::RepeatedNode {
+                block: name(),
+                element,
+                node: cell[a],
+            });
+        }
+        match block.kind.bad_jacobian(&self.points, cell) {
+            Some((point, det_j)) => Err(MeshError::Jacobian {
+                block: name(),
+                element,
+                point,
+                det_j,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_node_sets(&self) -> Result<(), MeshError> {
+        for (set, nodes) in &self.node_sets {
+            let disorder = nodes.windows(2).find(|pair| pair[0] >= pair[1]);
+            let outside = nodes.iter().find(|&&n| n as usize >= self.points.len());
+            if let Some(&node) = disorder.map(|pair| &pair[1]).or(outside) {
+                return Err(MeshError::NodeSet {
+                    set: set.clone(),
+                    node,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_facet_sets(&self) -> Result<(), MeshError> {
+        let counts = if self.dim == 2 { 2..=2 } else { 3..=4 };
+        for (set, facets) in &self.facet_sets {
+            let wrong = |facet: &Facet| {
+                !counts.contains(&facet.count)
+                    || facet
+                        .nodes()
+                        .iter()
+                        .any(|&n| n as usize >= self.points.len())
+            };
+            if let Some(facet) = facets.iter().position(wrong) {
+                return Err(MeshError::FacetSet {
+                    set: set.clone(),
+                    facet,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn unknown_set<'a>(
+    what: &'static str,
+    set: &str,
+    known: impl Iterator<Item = &'a String>,
+) -> MeshError {
+    let known: Vec<&str> = known.map(String::as_str).collect();
+    MeshError::UnknownSet {
+        what,
+        set: set.to_owned(),
+        known: known.join(", "),
+    }
+}

@@ -1,0 +1,73 @@
+//! Meshes, displacements and solids for the tests.
+
+use fe_core::{BoxMesh, CellKind, Mesh, Solid, solid_block};
+use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean};
+use proptest::prelude::*;
+
+pub(crate) const KINDS: [CellKind; 2] = [CellKind::Hex8, CellKind::Tet4];
+
+pub(crate) fn neo_hookean() -> NeoHookean {
+    NeoHookean::new(ElasticConstants::from_shear_lame(1.0, 2.0).unwrap()).unwrap()
+}
+
+pub(crate) fn blatz_ko() -> BlatzKo {
+    BlatzKo::new(1.5).unwrap()
+}
+
+/// A box with sides 1, 1.2 and 0.8, its nodes moved by up to `jitter` of the smallest cell; boundary nodes too
+/// if asked.
+pub(crate) fn distorted_box(
+    cells: [usize; 3],
+    kind: CellKind,
+    jitter: f64,
+    boundary: bool,
+) -> Mesh {
+    let max = [1.0, 1.2, 0.8];
+    let mut mesh = BoxMesh::uniform([0.0; 3], max, cells)
+        .with_kind(kind)
+        .generate("box")
+        .unwrap();
+    let cell = (0..3)
+        .map(|i| max[i] / cells[i] as f64)
+        .fold(f64::INFINITY, f64::min);
+    for (node, x) in mesh.points.iter_mut().enumerate() {
+        let outer = (0..3).any(|i| x[i] == 0.0 || x[i] == max[i]);
+        if boundary || !outer {
+            for (i, x) in x.iter_mut().enumerate() {
+                *x += jitter * cell * (1.7 * node as f64 + 2.9 * i as f64).sin();
+            }
+        }
+    }
+    mesh
+}
+
+pub(crate) fn solid<M: Material>(mesh: Mesh, material: M, density: f64) -> Solid {
+    let blocks = (0..mesh.blocks.len())
+        .map(|index| solid_block(&mesh, index, material.clone(), density).unwrap());
+    let blocks = blocks.collect();
+    Solid::new(mesh, blocks).unwrap()
+}
+
+/// Displacements of each node up to `size`.
+pub(crate) fn displacement(nodes: usize, size: f64) -> impl Strategy<Value = Vec<f64>> {
+    prop::collection::vec(-size..size, 3 * nodes)
+}
+
+/// A smooth displacement, large enough to matter.
+pub(crate) fn wave(mesh: &Mesh, size: f64) -> Vec<f64> {
+    let wave = |x: &[f64; 3]| {
+        [
+            size * (3.0 * x[1] + x[2]).sin(),
+            size * (2.0 * x[2] - x[0]).cos(),
+            size * x[0] * (x[1] + 0.3),
+        ]
+    };
+    mesh.points.iter().flat_map(wave).collect()
+}
+
+pub(crate) fn pool(threads: usize) -> rayon::ThreadPool {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap()
+}

@@ -1,0 +1,10 @@
+//! Elements, blocks, assembly and loads against independent computations.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod assembly;
+mod blocks;
+mod common;
+mod loads;
+mod meshes;
+mod surfaces;
