@@ -1,0 +1,389 @@
+//! Closest point on a deformable surface: tree of padded boxes, exact facets, rims.
+
+use fe_core::Surface;
+use parry3d_f64::bounding_volume::Aabb;
+use parry3d_f64::math::Vector;
+use parry3d_f64::partitioning::{
+    Bvh, BvhBuildStrategy, BvhLeafUpdateStatus, BvhNode, BvhWorkspace, TraversalAction,
+};
+
+use crate::facet::{
+    FacetPoint, Place, closest_point, conormal, facet_normal, interpolate, vertex_coordinates,
+};
+use crate::vec3::{Vec3, axpy, dot, node_vector, norm, sub, unit};
+
+/// Two facets are equally close when their distances agree to this part of the distance ..
+const TIE: f64 = 1e-12;
+/// .. or to this part of the facet's size, squared: round-off of a node that lies on the surface.
+const TIE_AT_ZERO: f64 = 1e-28;
+
+/// A slave node's place on a master surface.
+pub(super) struct SurfaceContact {
+    pub(super) facet: u32,
+    pub(super) nodes: [u32; 4],
+    pub(super) count: usize,
+    pub(super) weights: [f64; 4],
+    pub(super) normal: Vec3,
+    pub(super) gap: f64,
+}
+
+/// Outcome of a search for one node.
+pub(super) struct Touch {
+    pub(super) contact: Option<SurfaceContact>,
+    pub(super) projections: u64,
+}
+
+impl Touch {
+    fn nothing(projections: u64) -> Self {
+        Self {
+            contact: None,
+            projections,
+        }
+    }
+}
+
+/// Axis-parallel box.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    min: Vec3,
+    max: Vec3,
+}
+
+impl Extent {
+    fn of(points: impl Iterator<Item = Vec3>) -> Self {
+        let empty = Self {
+            min: [f64::INFINITY; 3],
+            max: [f64::NEG_INFINITY; 3],
+        };
+        points.fold(empty, |b, x| Self {
+            min: std::array::from_fn(|i| b.min[i].min(x[i])),
+            max: std::array::from_fn(|i| b.max[i].max(x[i])),
+        })
+    }
+
+    fn distance_squared(&self, x: Vec3) -> f64 {
+        let d: Vec3 =
+            std::array::from_fn(|i| (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0));
+        dot(d, d)
+    }
+
+    fn is_apart(&self, other: &Self, reach: f64) -> bool {
+        (0..3).any(|i| self.min[i] - other.max[i] > reach || other.min[i] - self.max[i] > reach)
+    }
+
+    fn size(&self) -> f64 {
+        norm(sub(self.max, self.min))
+    }
+
+    fn padded(&self, by: f64) -> Aabb {
+        let vector = |a: Vec3, s: f64| Vector::new(a[0] + s, a[1] + s, a[2] + s);
+        Aabb::new(vector(self.min, -by), vector(self.max, by))
+    }
+}
+
+/// Everything the search of one master surface remembers; all of it follows from the positions.
+pub(super) struct SurfaceSearch {
+    reach: f64,
+    rim_tolerance: f64,
+    nodes: Vec<u32>,
+    /// Surface indices of each facet's nodes, and how many.
+    facets: Vec<([u32; 4], u8)>,
+    /// Bit `k`: edge `k` of the facet belongs to no other facet.
+    rim_edges: Vec<u8>,
+    /// Rim edges (facet, edge) at each surface node: `rims[rim_starts[i]..rim_starts[i + 1]]`.
+    rim_starts: Vec<usize>,
+    rims: Vec<(u32, u8)>,
+    points: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    boxes: Vec<Extent>,
+    tree: Option<Bvh>,
+    workspace: BvhWorkspace,
+}
+
+impl std::fmt::Debug for SurfaceSearch {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SurfaceSearch")
+            .field("facets", &self.facets.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl SurfaceSearch {
+    pub(super) fn new(surface: &Surface, reach: f64, rim_tolerance: f64) -> Self {
+        let facets: Vec<([u32; 4], u8)> = (0..surface.facets.len())
+            .map(|f| {
+                let corners = surface.corners(f);
+                let mut local = [0; 4];
+                local[..corners.len()].copy_from_slice(corners);
+                (local, corners.len() as u8)
+            })
+            .collect();
+        let rim_edges = rim_edges(&facets);
+        let (rim_starts, rims) = rims_at_nodes(&facets, &rim_edges, surface.nodes.len());
+        Self {
+            reach,
+            rim_tolerance,
+            nodes: surface.nodes.clone(),
+            facets,
+            rim_edges,
+            rim_starts,
+            rims,
+            points: Vec::new(),
+            normals: Vec::new(),
+            boxes: Vec::new(),
+            tree: None,
+            workspace: BvhWorkspace::default(),
+        }
+    }
+
+    /// Reads the surface's positions out of the flat array of the mesh.
+    pub(super) fn gather(&mut self, positions: &[f64]) {
+        self.points.clear();
+        self.points.extend(
+            self.nodes
+                .iter()
+                .map(|node| node_vector(positions, 3, *node)),
+        );
+    }
+
+    /// The box test: true if no slave can be within reach of the surface.
+    pub(super) fn is_out_of_reach(&self, slaves: impl Iterator<Item = Vec3>) -> bool {
+        let surface = Extent::of(self.points.iter().copied());
+        Extent::of(slaves).is_apart(&surface, self.reach)
+    }
+
+    /// Brings boxes and tree up to date; true if the tree had to change.
+    ///
+    /// The tree's boxes are padded, so small motions leave it alone. Padding never changes a result: every
+    /// candidate is tested again with its exact box.
+    pub(super) fn refit(&mut self) -> bool {
+        self.boxes.clear();
+        for (corners, count) in &self.facets {
+            let corners = &corners[..*count as usize];
+            self.boxes
+                .push(Extent::of(corners.iter().map(|i| self.points[*i as usize])));
+        }
+        let pad = 0.1 * self.reach;
+        let Some(tree) = &mut self.tree else {
+            let leaves: Vec<Aabb> = self.boxes.iter().map(|b| b.padded(pad)).collect();
+            self.tree = Some(Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves));
+            return true;
+        };
+        let mut moved = false;
+        for (k, extent) in self.boxes.iter().enumerate() {
+            let status = tree.insert_or_update_partially(extent.padded(0.0), k as u32, pad);
+            moved |= !matches!(status, BvhLeafUpdateStatus::Unchanged);
+        }
+        if moved {
+            tree.refit(&mut self.workspace);
+        }
+        moved
+    }
+
+    /// Unit normals at the surface nodes, by surface index.
+    pub(super) fn set_normals(&mut self, normals: Vec<Vec3>) {
+        self.normals = normals;
+    }
+
+    /// Facets that may be closest to `x`, with the squared distances of their boxes; a superset.
+    fn candidates(&self, x: Vec3, found: &mut Vec<(f64, u32)>) {
+        found.clear();
+        let Some(tree) = &self.tree else { return };
+        let mut limit = self.reach * self.reach;
+        tree.traverse(|node: &BvhNode| {
+            if node_distance_squared(node, x) > limit {
+                return TraversalAction::Prune;
+            }
+            if let Some(facet) = node.leaf_data() {
+                let (corners, count) = &self.facets[facet as usize];
+                let nearest = corners[..*count as usize]
+                    .iter()
+                    .map(|i| {
+                        let r = sub(self.points[*i as usize], x);
+                        dot(r, r)
+                    })
+                    .fold(f64::INFINITY, f64::min);
+                let extent = &self.boxes[facet as usize];
+                found.push((extent.distance_squared(x), facet));
+                // No closest point is farther than a vertex; the slack keeps ties.
+                limit = limit.min(nearest + tie(nearest, extent));
+            }
+            TraversalAction::Continue
+        });
+    }
+
+    fn vertices<'a>(&self, facet: u32, buffer: &'a mut [Vec3; 4]) -> &'a [Vec3] {
+        let (corners, count) = &self.facets[facet as usize];
+        for (x, i) in buffer.iter_mut().zip(corners) {
+            *x = self.points[*i as usize];
+        }
+        &buffer[..*count as usize]
+    }
+
+    fn project(&self, facet: u32, x: Vec3) -> FacetPoint {
+        let mut buffer = [[0.0; 3]; 4];
+        closest_point(self.vertices(facet, &mut buffer), x)
+    }
+
+    /// The contact of a node at `x`, if the surface is within reach; `found` is scratch.
+    pub(super) fn touch(&self, x: Vec3, found: &mut Vec<(f64, u32)>) -> Touch {
+        self.candidates(x, found);
+        // By facet number, so that neither the shape of the tree nor its history can break a tie; the first to
+        // be projected is the one with the nearest box, which settles most of the others.
+        found.sort_unstable_by_key(|(_, facet)| *facet);
+        let first = found
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.0.total_cmp(&b.1.0))
+            .map(|(k, _)| k);
+        let Some(first) = first else {
+            return Touch::nothing(0);
+        };
+        let mut best = (found[first].1, self.project(found[first].1, x));
+        let mut projections = 1;
+        for (k, (box_distance, facet)) in found.iter().enumerate() {
+            let slack = tie(best.1.distance_squared, &self.boxes[*facet as usize]);
+            if k == first || *box_distance > best.1.distance_squared + slack {
+                continue;
+            }
+            projections += 1;
+            let at = self.project(*facet, x);
+            let (d, closest) = (at.distance_squared, best.1.distance_squared);
+            if d < closest - slack || (d <= closest + slack && *facet < best.0) {
+                best = (*facet, at);
+            }
+        }
+        if best.1.distance_squared > self.reach * self.reach {
+            return Touch::nothing(projections);
+        }
+        Touch {
+            contact: self.contact(x, best.0, &best.1),
+            projections,
+        }
+    }
+
+    fn contact(&self, x: Vec3, facet: u32, at: &FacetPoint) -> Option<SurfaceContact> {
+        let (corners, count) = &self.facets[facet as usize];
+        let count = *count as usize;
+        let corner_normals: [Vec3; 4] = corners.map(|i| self.normals[i as usize]);
+        let mut buffer = [[0.0; 3]; 4];
+        let vertices = self.vertices(facet, &mut buffer);
+        let normal = unit(interpolate(&corner_normals[..count], &at.weights))
+            .or_else(|| facet_normal(vertices, at.coordinates))?;
+        let offset = self.without_overhang(sub(x, at.point), facet, at)?;
+        // The signed distance, not n . offset: the same on a flat surface, and continuous where the
+        // closest point jumps from one side of a valley to the other, as n is not.
+        let along_facet_normal = match at.place {
+            Place::Interior => facet_normal(vertices, at.coordinates).map(|m| dot(m, offset)),
+            _ => None,
+        };
+        let gap = along_facet_normal.unwrap_or_else(|| norm(offset).copysign(dot(normal, offset)));
+        Some(SurfaceContact {
+            facet,
+            nodes: corners.map(|i| self.nodes[i as usize]),
+            count,
+            weights: at.weights,
+            normal,
+            gap,
+        })
+    }
+
+    /// The node seen from its closest point, without the part that hangs over the rim; `None` when it hangs
+    /// over too far to rest on the surface.
+    ///
+    /// Only the direction out of the surface across its rim counts: above a convex ridge that runs
+    /// into the rim, a node is in contact like above any other ridge. The sign of the gap does not matter, or
+    /// an open contact would hold up a node that falls past the rim.
+    fn without_overhang(&self, mut offset: Vec3, facet: u32, at: &FacetPoint) -> Option<Vec3> {
+        match at.place {
+            Place::Interior => Some(offset),
+            Place::Edge(k) if self.rim_edges[facet as usize] & (1 << k) == 0 => Some(offset),
+            Place::Edge(k) => {
+                offset = self.clip(offset, facet, k as usize, at.coordinates)?;
+                Some(offset)
+            }
+            Place::Vertex(k) => {
+                let node = self.facets[facet as usize].0[k as usize] as usize;
+                for (facet, edge) in &self.rims[self.rim_starts[node]..self.rim_starts[node + 1]] {
+                    let (corners, count) = &self.facets[*facet as usize];
+                    let own = corners
+                        .iter()
+                        .position(|c| *c as usize == node)
+                        .unwrap_or(0);
+                    let coordinates = vertex_coordinates(*count as usize, own);
+                    offset = self.clip(offset, *facet, *edge as usize, coordinates)?;
+                }
+                Some(offset)
+            }
+        }
+    }
+
+    fn clip(&self, offset: Vec3, facet: u32, edge: usize, coordinates: [f64; 2]) -> Option<Vec3> {
+        let mut buffer = [[0.0; 3]; 4];
+        let outward = conormal(self.vertices(facet, &mut buffer), edge, coordinates);
+        let overhang = dot(offset, outward).max(0.0);
+        let tolerance = self.rim_tolerance * self.boxes[facet as usize].size();
+        (overhang <= tolerance).then(|| axpy(offset, -overhang, outward))
+    }
+}
+
+fn tie(distance_squared: f64, extent: &Extent) -> f64 {
+    let size = extent.size();
+    TIE * distance_squared + TIE_AT_ZERO * size * size
+}
+
+fn node_distance_squared(node: &BvhNode, x: Vec3) -> f64 {
+    let (min, max) = (node.mins(), node.maxs());
+    Extent {
+        min: [min.x, min.y, min.z],
+        max: [max.x, max.y, max.z],
+    }
+    .distance_squared(x)
+}
+
+fn edge_nodes((corners, count): &([u32; 4], u8), k: usize) -> (u32, u32) {
+    let (a, b) = (corners[k], corners[(k + 1) % *count as usize]);
+    (a.min(b), a.max(b))
+}
+
+/// Bit mask per facet of the edges that no other facet shares.
+fn rim_edges(facets: &[([u32; 4], u8)]) -> Vec<u8> {
+    let mut edges: Vec<((u32, u32), usize, usize)> = Vec::new();
+    for (f, facet) in facets.iter().enumerate() {
+        edges.extend((0..facet.1 as usize).map(|k| (edge_nodes(facet, k), f, k)));
+    }
+    edges.sort_unstable();
+    let mut mask = vec![0; facets.len()];
+    for same in edges.chunk_by(|a, b| a.0 == b.0) {
+        // An edge of length zero (a quadrilateral with two equal nodes) is no rim.
+        if let [(nodes, f, k)] = same
+            && nodes.0 != nodes.1
+        {
+            mask[*f] |= 1 << k;
+        }
+    }
+    mask
+}
+
+fn rims_at_nodes(
+    facets: &[([u32; 4], u8)],
+    rim_edges: &[u8],
+    nodes: usize,
+) -> (Vec<usize>, Vec<(u32, u8)>) {
+    let mut all: Vec<(u32, u32, u8)> = Vec::new();
+    for (f, facet) in facets.iter().enumerate() {
+        for k in (0..facet.1 as usize).filter(|k| rim_edges[f] & (1 << k) != 0) {
+            let (a, b) = edge_nodes(facet, k);
+            all.extend([(a, f as u32, k as u8), (b, f as u32, k as u8)]);
+        }
+    }
+    all.sort_unstable();
+    let mut starts = vec![0; nodes + 1];
+    for (node, ..) in &all {
+        starts[*node as usize + 1] += 1;
+    }
+    for i in 0..nodes {
+        starts[i + 1] += starts[i];
+    }
+    (starts, all.into_iter().map(|(_, f, k)| (f, k)).collect())
+}

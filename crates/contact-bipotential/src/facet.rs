@@ -1,0 +1,334 @@
+//! Closest point on one facet: a flat triangle or a bilinear quadrilateral.
+//!
+//! Vertices run counter-clockwise seen from outside; edge `k` joins vertex `k` to the next one.
+//! A quadrilateral is `x = a + xi b + eta c + xi eta d` with `(xi, eta)` in the unit square, vertices at
+//! (0,0), (1,0), (1,1), (0,1); a triangle is the case `d = 0` with `xi + eta <= 1`.
+
+use crate::vec3::{Vec3, axpy, cross, dot, scale, sub, unit};
+
+/// Where on a facet a point lies. Edges and vertices are exact: the point was clamped to them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// Inside the facet.
+    Interior,
+    /// On the edge from vertex `k` to the next one.
+    Edge(u8),
+    /// At vertex `k`.
+    Vertex(u8),
+}
+
+/// A point of a facet.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FacetPoint {
+    /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle [-].
+    pub coordinates: [f64; 2],
+    /// Shape functions at the point [-]: they sum to 1, the fourth is 0 on a triangle.
+    pub weights: [f64; 4],
+    /// Position \[m\].
+    pub point: [f64; 3],
+    /// Squared distance to the point that was projected [m^2].
+    pub distance_squared: f64,
+    /// Interior, edge or vertex.
+    pub place: Place,
+}
+
+/// The point of a facet closest to `p` \[m\]: `vertices` holds 3 or 4 positions \[m\].
+///
+/// Exact for triangles. For quadrilaterals a safeguarded projected Newton iteration, compared with the four
+/// edges; it returns the global minimum unless the facet is warped so strongly, and `p` so far, that the
+/// distance has several minima inside.
+///
+/// With fewer than 3 vertices the first one is returned.
+pub fn closest_point(vertices: &[[f64; 3]], p: [f64; 3]) -> FacetPoint {
+    match vertices {
+        [a, b, c] => triangle(&[*a, *b, *c], p),
+        [a, b, c, d, ..] => quadrilateral(&[*a, *b, *c, *d], p),
+        _ => {
+            let point = vertices.first().copied().unwrap_or(p);
+            let r = sub(point, p);
+            FacetPoint {
+                coordinates: [0.0; 2],
+                weights: [1.0, 0.0, 0.0, 0.0],
+                point,
+                distance_squared: dot(r, r),
+                place: Place::Vertex(0),
+            }
+        }
+    }
+}
+
+/// Outward unit normal of the facet itself at local coordinates; `None` where the facet is degenerate.
+pub fn facet_normal(vertices: &[[f64; 3]], coordinates: [f64; 2]) -> Option<[f64; 3]> {
+    match vertices {
+        [a, b, c] => unit(cross(sub(*b, *a), sub(*c, *a))),
+        [a, b, c, d, ..] => {
+            let q = Bilinear::new(&[*a, *b, *c, *d], *a);
+            unit(cross(q.d_xi(coordinates), q.d_eta(coordinates)))
+        }
+        _ => None,
+    }
+}
+
+/// Parameter in [0, 1] of the point of segment `a b` closest to the origin.
+fn segment(a: Vec3, b: Vec3) -> f64 {
+    let e = sub(b, a);
+    let length_squared = dot(e, e);
+    if length_squared > 0.0 {
+        (-dot(a, e) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// The closest point to the origin on the border of a polygon: edge, parameter along it, squared distance.
+fn closest_on_border(vertices: &[Vec3]) -> (usize, f64, f64) {
+    let mut best = (0, 0.0, f64::INFINITY);
+    for k in 0..vertices.len() {
+        let (a, b) = (vertices[k], vertices[(k + 1) % vertices.len()]);
+        let t = segment(a, b);
+        let r = axpy(a, t, sub(b, a));
+        let f = dot(r, r);
+        if f < best.2 {
+            best = (k, t, f);
+        }
+    }
+    best
+}
+
+fn triangle(x: &[Vec3; 3], p: Vec3) -> FacetPoint {
+    let r = [sub(x[0], p), sub(x[1], p), sub(x[2], p)];
+    let (b, c) = (sub(x[1], x[0]), sub(x[2], x[0]));
+    let (bb, bc, cc) = (dot(b, b), dot(b, c), dot(c, c));
+    let (rb, rc) = (-dot(r[0], b), -dot(r[0], c));
+    let det = bb * cc - bc * bc;
+    let (xi, eta) = ((cc * rb - bc * rc) / det, (bb * rc - bc * rb) / det);
+    // A degenerate triangle gives NaN or infinity here and is left to its border.
+    if xi > 0.0 && eta > 0.0 && xi + eta < 1.0 {
+        let relative = axpy(axpy(r[0], xi, b), eta, c);
+        let weights = [1.0 - xi - eta, xi, eta, 0.0];
+        return finish(x, [xi, eta], weights, Place::Interior, relative);
+    }
+    let (edge, t, _) = closest_on_border(&r);
+    let next = (edge + 1) % 3;
+    let mut weights = [0.0; 4];
+    weights[edge] = 1.0 - t;
+    weights[next] = t;
+    let place = if t <= 0.0 {
+        Place::Vertex(edge as u8)
+    } else if t >= 1.0 {
+        Place::Vertex(next as u8)
+    } else {
+        Place::Edge(edge as u8)
+    };
+    let relative = axpy(r[edge], t, sub(x[next], x[edge]));
+    finish(x, [weights[1], weights[2]], weights, place, relative)
+}
+
+/// `relative` is the closest point seen from `p`, formed without the cancellation of two large positions.
+fn finish(
+    x: &[Vec3],
+    coordinates: [f64; 2],
+    weights: [f64; 4],
+    place: Place,
+    relative: Vec3,
+) -> FacetPoint {
+    let mut point = [0.0; 3];
+    for (a, w) in x.iter().zip(weights) {
+        point = axpy(point, w, *a);
+    }
+    FacetPoint {
+        coordinates,
+        weights,
+        point,
+        distance_squared: dot(relative, relative),
+        place,
+    }
+}
+
+/// `r(xi, eta) = a + xi b + eta c + xi eta d`, seen from the projected point.
+struct Bilinear {
+    a: Vec3,
+    b: Vec3,
+    c: Vec3,
+    d: Vec3,
+}
+
+impl Bilinear {
+    fn new(x: &[Vec3; 4], p: Vec3) -> Self {
+        let b = sub(x[1], x[0]);
+        Self {
+            a: sub(x[0], p),
+            b,
+            c: sub(x[3], x[0]),
+            d: sub(sub(x[2], x[3]), b),
+        }
+    }
+
+    fn at(&self, [xi, eta]: [f64; 2]) -> Vec3 {
+        let along = axpy(self.b, eta, self.d);
+        axpy(axpy(self.a, eta, self.c), xi, along)
+    }
+
+    fn d_xi(&self, [_, eta]: [f64; 2]) -> Vec3 {
+        axpy(self.b, eta, self.d)
+    }
+
+    fn d_eta(&self, [xi, _]: [f64; 2]) -> Vec3 {
+        axpy(self.c, xi, self.d)
+    }
+
+    /// Half the squared distance's gradient and Hessian (xi xi, xi eta without curvature, eta eta, curvature).
+    fn derivatives(&self, s: [f64; 2]) -> ([f64; 2], [f64; 4]) {
+        let (r, u, v) = (self.at(s), self.d_xi(s), self.d_eta(s));
+        (
+            [dot(r, u), dot(r, v)],
+            [dot(u, u), dot(u, v), dot(v, v), dot(r, self.d)],
+        )
+    }
+
+    /// One exact minimisation along xi, then one along eta: never uphill, since both are parabolas.
+    fn alternate(&self, s: [f64; 2]) -> [f64; 2] {
+        let (g, h) = self.derivatives(s);
+        let xi = if h[0] > 0.0 {
+            (s[0] - g[0] / h[0]).clamp(0.0, 1.0)
+        } else {
+            s[0]
+        };
+        let s = [xi, s[1]];
+        let (g, h) = self.derivatives(s);
+        let eta = if h[2] > 0.0 {
+            (s[1] - g[1] / h[2]).clamp(0.0, 1.0)
+        } else {
+            s[1]
+        };
+        [xi, eta]
+    }
+
+    /// Newton step with the coordinates held that sit on a bound and want to leave it.
+    fn newton(&self, s: [f64; 2]) -> [f64; 2] {
+        let (g, [huu, huv, hvv, curvature]) = self.derivatives(s);
+        let held = |k: usize| (s[k] <= 0.0 && g[k] >= 0.0) || (s[k] >= 1.0 && g[k] <= 0.0);
+        let step = match (held(0), held(1)) {
+            (true, true) => [0.0, 0.0],
+            (true, false) => [0.0, -g[1] / hvv],
+            (false, true) => [-g[0] / huu, 0.0],
+            (false, false) => {
+                let full = huv + curvature;
+                let definite = |h: f64| huu * hvv - h * h > 1e-10 * huu * hvv;
+                // Far from a warped facet the Hessian turns indefinite: without its curvature term it cannot.
+                let h = if definite(full) { full } else { huv };
+                let det = huu * hvv - h * h;
+                [(h * g[1] - hvv * g[0]) / det, (h * g[0] - huu * g[1]) / det]
+            }
+        };
+        [
+            (s[0] + step[0]).clamp(0.0, 1.0),
+            (s[1] + step[1]).clamp(0.0, 1.0),
+        ]
+    }
+
+    fn minimise(&self, mut s: [f64; 2]) -> ([f64; 2], f64) {
+        let value = |s: [f64; 2]| {
+            let r = self.at(s);
+            dot(r, r)
+        };
+        let mut f = value(s);
+        // Near the minimum the value cannot tell a better point from round-off, but the gradient can.
+        let slack = 1e-14 * (dot(self.a, self.a) + dot(self.b, self.b) + dot(self.c, self.c));
+        for _ in 0..MAX_STEPS {
+            let mut next = self.newton(s);
+            let mut f_next = value(next);
+            // NaN, from a degenerate facet, is no improvement either.
+            let improved = f_next <= f + slack;
+            if !improved {
+                next = self.alternate(s);
+                f_next = value(next);
+            }
+            let change = (next[0] - s[0]).abs().max((next[1] - s[1]).abs());
+            if f_next <= f + slack {
+                (s, f) = (next, f_next);
+            }
+            if change <= STEP_TOLERANCE {
+                break;
+            }
+        }
+        (s, f)
+    }
+}
+
+/// Quadratic convergence needs five or six; the rest is for degenerate facets, which creep.
+const MAX_STEPS: usize = 60;
+/// In local coordinates: a few units of round-off.
+const STEP_TOLERANCE: f64 = 1e-14;
+
+fn quadrilateral(x: &[Vec3; 4], p: Vec3) -> FacetPoint {
+    let q = Bilinear::new(x, p);
+    let (mut s, f) = q.minimise([0.5, 0.5]);
+    let r = [q.a, sub(x[1], p), sub(x[2], p), sub(x[3], p)];
+    let (edge, t, f_border) = closest_on_border(&r);
+    let settled = f <= f_border;
+    if !settled {
+        let start = match edge {
+            0 => [t, 0.0],
+            1 => [1.0, t],
+            2 => [1.0 - t, 1.0],
+            _ => [0.0, 1.0 - t],
+        };
+        let (better, f_better) = q.minimise(start);
+        if f_better < f || f.is_nan() {
+            s = better;
+        }
+    }
+    let [xi, eta] = s;
+    let weights = [
+        (1.0 - xi) * (1.0 - eta),
+        xi * (1.0 - eta),
+        xi * eta,
+        (1.0 - xi) * eta,
+    ];
+    finish(x, s, weights, place_in_square(s), q.at(s))
+}
+
+fn place_in_square([xi, eta]: [f64; 2]) -> Place {
+    match (xi <= 0.0, xi >= 1.0, eta <= 0.0, eta >= 1.0) {
+        (true, _, true, _) => Place::Vertex(0),
+        (_, true, true, _) => Place::Vertex(1),
+        (_, true, _, true) => Place::Vertex(2),
+        (true, _, _, true) => Place::Vertex(3),
+        (_, _, true, _) => Place::Edge(0),
+        (_, true, _, _) => Place::Edge(1),
+        (_, _, _, true) => Place::Edge(2),
+        (true, _, _, _) => Place::Edge(3),
+        _ => Place::Interior,
+    }
+}
+
+/// `sum_i N_i a_i`, for positions or vertex normals.
+pub(crate) fn interpolate(values: &[Vec3], weights: &[f64; 4]) -> Vec3 {
+    values
+        .iter()
+        .zip(weights)
+        .fold([0.0; 3], |sum, (a, w)| axpy(sum, *w, *a))
+}
+
+/// The unit vector in the facet that points out of it across edge `k`, at a point of that edge.
+///
+/// Zero on a degenerate facet, which then has no outside.
+pub(crate) fn conormal(vertices: &[Vec3], edge: usize, coordinates: [f64; 2]) -> Vec3 {
+    let e = sub(vertices[(edge + 1) % vertices.len()], vertices[edge]);
+    facet_normal(vertices, coordinates)
+        .and_then(|m| unit(cross(e, m)))
+        .unwrap_or_else(|| scale(0.0, e))
+}
+
+/// Local coordinates of vertex `k` of a facet with `count` vertices.
+pub(crate) fn vertex_coordinates(count: usize, k: usize) -> [f64; 2] {
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    match (count, k) {
+        (3, 2) => [0.0, 1.0],
+        _ => square[k % 4],
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,245 @@
+//! Projection against brute force, closed forms and its own optimality conditions.
+
+use super::*;
+use crate::vec3::norm;
+use proptest::prelude::*;
+
+fn add(a: Vec3, b: Vec3) -> Vec3 {
+    axpy(a, 1.0, b)
+}
+
+fn vector(size: f64) -> impl Strategy<Value = Vec3> {
+    [-size..size, -size..size, -size..size]
+}
+
+/// A unit square or triangle in the plane z = 0, each vertex moved by up to `warp`, seen through a random map.
+fn facet(count: usize, warp: f64) -> impl Strategy<Value = Vec<Vec3>> {
+    let moves = prop::collection::vec(vector(warp), count);
+    (moves, vector(5.0), vector(1.0), 0.1f64..10.0).prop_map(|(moves, origin, axis, size)| {
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+        ];
+        let pick = if moves.len() == 3 {
+            [0, 1, 3, 3]
+        } else {
+            [0, 1, 2, 3]
+        };
+        (0..moves.len())
+            .map(|k| {
+                let x = add(corners[pick[k]], moves[k]);
+                axpy(origin, size, turn(axis, x))
+            })
+            .collect()
+    })
+}
+
+/// Rodrigues rotation by |axis| * pi about `axis`.
+fn turn(axis: Vec3, x: Vec3) -> Vec3 {
+    let Some(k) = unit(axis) else { return x };
+    let (s, c) = (norm(axis) * std::f64::consts::PI).sin_cos();
+    let along = scale(dot(k, x) * (1.0 - c), k);
+    add(add(scale(c, x), scale(s, cross(k, x))), along)
+}
+
+fn size(x: &[Vec3]) -> f64 {
+    norm(sub(x[1], x[0])).max(norm(sub(x[2], x[1])))
+}
+
+/// A point at most about one facet size away from the facet.
+fn near(x: &[Vec3], offset: Vec3) -> Vec3 {
+    let centre = scale(
+        1.0 / x.len() as f64,
+        x.iter().fold([0.0; 3], |s, a| add(s, *a)),
+    );
+    axpy(centre, size(x), offset)
+}
+
+/// Distance by dense sampling with one local refinement.
+fn brute_force(x: &[Vec3], p: Vec3) -> f64 {
+    let n = 30;
+    let point = |u: f64, v: f64| {
+        let w = if x.len() == 3 {
+            // The unit square collapsed on the triangle.
+            [1.0 - u, u * (1.0 - v), u * v, 0.0]
+        } else {
+            [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
+        };
+        norm(sub(interpolate(x, &w), p))
+    };
+    let (mut best, mut at, mut h) = (f64::INFINITY, (0.5, 0.5), 0.5);
+    for _ in 0..6 {
+        let centre = at;
+        for i in 0..=n {
+            for j in 0..=n {
+                let u = (centre.0 + h * (2.0 * i as f64 / n as f64 - 1.0)).clamp(0.0, 1.0);
+                let v = (centre.1 + h * (2.0 * j as f64 / n as f64 - 1.0)).clamp(0.0, 1.0);
+                let f = point(u, v);
+                if f < best {
+                    (best, at) = (f, (u, v));
+                }
+            }
+        }
+        h *= 4.0 / n as f64;
+    }
+    best
+}
+
+/// The residual is perpendicular to every direction in which the point could still move.
+fn assert_optimal(x: &[Vec3], p: Vec3, c: &FacetPoint) -> Result<(), TestCaseError> {
+    let r = sub(p, c.point);
+    let scale_squared = size(x) * (size(x) + norm(r));
+    for vertex in x {
+        // Straight to a vertex stays inside a triangle; in a quadrilateral, only to first order on the facet.
+        let toward = if x.len() == 3 {
+            sub(*vertex, c.point)
+        } else {
+            let q = Bilinear::new(&[x[0], x[1], x[2], x[3]], p);
+            let k = x.iter().position(|v| v == vertex).unwrap();
+            let [du, dv] = {
+                let goal = vertex_coordinates(4, k);
+                [goal[0] - c.coordinates[0], goal[1] - c.coordinates[1]]
+            };
+            add(
+                scale(du, q.d_xi(c.coordinates)),
+                scale(dv, q.d_eta(c.coordinates)),
+            )
+        };
+        prop_assert!(
+            dot(r, toward) <= 1e-11 * scale_squared,
+            "downhill by {}",
+            dot(r, toward)
+        );
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn projection_is_the_brute_force_minimum(
+        x in prop_oneof![facet(4, 0.2), facet(3, 0.2)], offset in vector(1.0),
+    ) {
+        let p = near(&x, offset);
+        let c = closest_point(&x, p);
+        let d = c.distance_squared.sqrt();
+        let sampled = brute_force(&x, p);
+        prop_assert!(d <= sampled * (1.0 + 1e-9) + 1e-12, "{d} above the sampled {sampled}");
+        prop_assert!(sampled - d < 1e-3 * size(&x));
+        assert_optimal(&x, p, &c)?;
+    }
+
+    #[test]
+    fn weights_reproduce_the_point_and_sum_to_one(
+        x in prop_oneof![facet(4, 0.3), facet(3, 0.3)], offset in vector(2.0),
+    ) {
+        let p = near(&x, offset);
+        let c = closest_point(&x, p);
+        prop_assert!(c.weights.iter().all(|w| (0.0..=1.0).contains(w)));
+        prop_assert!((c.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+        prop_assert!(norm(sub(interpolate(&x, &c.weights), c.point)) < 1e-13 * (size(&x) + norm(c.point)));
+        match c.place {
+            Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
+            Place::Edge(k) => {
+                let (k, l) = (k as usize, (k as usize + 1) % x.len());
+                for i in (0..4).filter(|i| *i != k && *i != l) {
+                    prop_assert_eq!(c.weights[i], 0.0);
+                }
+                prop_assert!(c.weights[k] > 0.0 && c.weights[l] > 0.0);
+            }
+            Place::Interior => prop_assert!(c.weights[..x.len()].iter().all(|w| *w > 0.0)),
+        }
+    }
+
+    #[test]
+    fn a_point_of_the_facet_projects_on_itself(
+        x in prop_oneof![facet(4, 0.2), facet(3, 0.2)], u in 0.0f64..1.0, v in 0.0f64..1.0,
+    ) {
+        let w = if x.len() == 3 {
+            [1.0 - u, u * (1.0 - v), u * v, 0.0]
+        } else {
+            [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
+        };
+        let p = interpolate(&x, &w);
+        let c = closest_point(&x, p);
+        prop_assert!(c.distance_squared.sqrt() < 4e-15 * (size(&x) + norm(p)));
+    }
+
+    #[test]
+    fn a_rotated_numbering_changes_nothing(x in facet(4, 0.2), offset in vector(1.0), by in 1usize..4) {
+        let p = near(&x, offset);
+        let mut y = x.clone();
+        y.rotate_left(by);
+        let (c, d) = (closest_point(&x, p), closest_point(&y, p));
+        prop_assert!((c.distance_squared - d.distance_squared).abs() < 1e-12 * (size(&x) * size(&x)));
+    }
+}
+
+#[test]
+fn degenerate_facets_still_give_finite_points() {
+    let p = [0.3, 0.4, 1.0];
+    let a = [0.0; 3];
+    let b = [1.0, 0.0, 0.0];
+    let c = [1.0, 1.0, 0.0];
+    for facet in [
+        &[a, b, c, c][..],
+        &[a, a, b, c],
+        &[a, a, a, a],
+        &[a, b, b],
+        &[a, a, a],
+        &[a],
+    ] {
+        let q = closest_point(facet, p);
+        assert!(
+            q.point.iter().chain(&q.weights).all(|v| v.is_finite()),
+            "{facet:?} {q:?}"
+        );
+    }
+    // Two equal vertices make a triangle.
+    let q = closest_point(&[a, b, c, c], p);
+    let t = closest_point(&[a, b, c], p);
+    assert!((q.distance_squared - t.distance_squared).abs() < 1e-12);
+}
+
+#[test]
+fn clamping_tells_edge_and_vertex() {
+    let x = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+    ];
+    let place = |p| closest_point(&x, p).place;
+    assert_eq!(place([1.0, 1.0, 3.0]), Place::Interior);
+    assert_eq!(place([1.0, -1.0, 3.0]), Place::Edge(0));
+    assert_eq!(place([3.0, 1.0, 3.0]), Place::Edge(1));
+    assert_eq!(place([1.0, 3.0, 3.0]), Place::Edge(2));
+    assert_eq!(place([-1.0, 1.0, 3.0]), Place::Edge(3));
+    assert_eq!(place([3.0, 3.0, 1.0]), Place::Vertex(2));
+    let place = |p| closest_point(&x[..3], p).place;
+    assert_eq!(place([1.5, 0.5, 3.0]), Place::Interior);
+    assert_eq!(place([0.5, 1.5, 3.0]), Place::Edge(2));
+    assert_eq!(place([9.0, 2.5, 3.0]), Place::Vertex(2));
+}
+
+#[test]
+fn conormals_point_out_of_the_facet() {
+    let x = [
+        [0.0, 0.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [2.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+    ];
+    let expected = [
+        [0.0, -1.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-1.0, 0.0, 0.0],
+    ];
+    for k in 0..4 {
+        assert!(norm(sub(conormal(&x, k, vertex_coordinates(4, k)), expected[k])) < 1e-15);
+    }
+}

@@ -1,0 +1,129 @@
+//! The global form of a contact problem, reduced to the local one.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::sparse::{SparseColMat, Triplet};
+
+use crate::cone::Cone;
+use crate::delassus::Delassus;
+use crate::error::ContactError;
+use crate::problem::ContactProblem;
+
+/// A sparse matrix as a list of entries; entries at the same place are summed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SparseEntries {
+    /// Number of rows.
+    pub rows: usize,
+    /// Number of columns.
+    pub columns: usize,
+    /// `(row, column, value)`.
+    pub entries: Vec<(usize, usize, f64)>,
+}
+
+/// `M v = H r + f`, `u = H^T v + w`: bodies and contacts together.
+#[derive(Debug, Clone)]
+pub struct GlobalProblem {
+    /// Mass or stiffness, `n x n`, not singular.
+    pub m: SparseEntries,
+    /// Columns are the unit reactions, `n x (dim contacts)`.
+    pub h: SparseEntries,
+    /// Load, `n`.
+    pub f: Vec<f64>,
+    /// Velocity of the obstacles, `dim contacts`.
+    pub w: Vec<f64>,
+    /// Friction coefficient of each contact [-].
+    pub mu: Vec<f64>,
+    /// Entries a contact.
+    pub cone: Cone,
+}
+
+impl GlobalProblem {
+    /// The local problem: `W = H^T M^-1 H`, `q = H^T M^-1 f + w`, by a sparse factorisation of `M`.
+    ///
+    /// # Errors
+    /// [`ContactError::Factorization`] for a singular `M`, [`ContactError::Length`] and [`ContactError::Entry`] for sizes
+    /// that do not fit, and those of [`ContactProblem::check`].
+    pub fn reduce(&self) -> Result<ContactProblem, ContactError> {
+        let (n, contacts) = (self.f.len(), self.mu.len());
+        let size = contacts * self.cone.dim();
+        for (what, found, expected) in [
+            ("M (rows)", self.m.rows, n),
+            ("M (columns)", self.m.columns, n),
+            ("H (rows)", self.h.rows, n),
+            ("H (columns)", self.h.columns, size),
+            ("w", self.w.len(), size),
+        ] {
+            if found != expected {
+                return Err(ContactError::Length { what, contacts, found, expected });
+            }
+        }
+        let m = sparse(&self.m, "M")?;
+        let h = sparse(&self.h, "H")?;
+        let failed = |reason: String| ContactError::Factorization { size: n, reason };
+        let lu = m.sp_lu().map_err(|e| failed(format!("{e:?}")))?;
+        let mut right = h.to_dense();
+        right.resize_with(n, size + 1, |i, _| self.f[i]);
+        lu.solve_in_place(&mut right);
+        if right.col_iter().any(|c| c.iter().any(|x| !x.is_finite())) {
+            return Err(failed("it is singular".to_owned()));
+        }
+        let product = h.transpose() * &right;
+        let q = (0..size).map(|i| product[(i, size)] + self.w[i]).collect();
+        let mut w: Mat<f64> = product;
+        w.resize_with(size, size, |_, _| 0.0);
+        ContactProblem::new(Delassus::Dense(w).compressed(contacts, self.cone.dim()), q, self.mu.clone(), self.cone)
+    }
+}
+
+fn sparse(a: &SparseEntries, what: &'static str) -> Result<SparseColMat<usize, f64>, ContactError> {
+    let (rows, columns) = (a.rows, a.columns);
+    if let Some(&(row, column, _)) = a.entries.iter().find(|e| e.0 >= rows || e.1 >= columns) {
+        return Err(ContactError::Entry { what, row, column, rows, columns });
+    }
+    let list: Vec<_> = a.entries.iter().map(|&(i, j, x)| Triplet::new(i, j, x)).collect();
+    SparseColMat::try_new_from_triplets(rows, columns, &list)
+        .map_err(|e| ContactError::Factorization { size: rows, reason: format!("{what}: {e:?}") })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn two_masses(m: [[f64; 2]; 2]) -> GlobalProblem {
+        let entries = (0..4).map(|k| (k / 2, k % 2, m[k / 2][k % 2])).collect();
+        GlobalProblem {
+            m: SparseEntries { rows: 2, columns: 2, entries },
+            h: SparseEntries { rows: 2, columns: 2, entries: vec![(0, 0, 1.0), (1, 0, -1.0), (1, 1, 2.0)] },
+            f: vec![1.0, 3.0],
+            w: vec![0.5, -1.0],
+            mu: vec![0.0; 2],
+            cone: Cone::Frictionless,
+        }
+    }
+
+    #[test]
+    fn reduction_is_the_schur_complement() {
+        let p = two_masses([[2.0, 1.0], [1.0, 3.0]]).reduce().unwrap();
+        // M^-1 = [[3, -1], [-1, 2]] / 5 by hand.
+        let w = p.w.to_dense();
+        let expected = [[7.0 / 5.0, -6.0 / 5.0], [-6.0 / 5.0, 8.0 / 5.0]];
+        for i in 0..2 {
+            for j in 0..2 {
+                assert!((w[(i, j)] - expected[i][j]).abs() < 1e-15);
+            }
+        }
+        assert!((p.q[0] - (-1.0 + 0.5)).abs() < 1e-15 && (p.q[1] - (2.0 - 1.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_cannot_be_reduced_says_why() {
+        let singular = two_masses([[1.0, 2.0], [2.0, 4.0]]).reduce().unwrap_err();
+        assert!(matches!(singular, ContactError::Factorization { size: 2, .. }), "{singular}");
+        let mut short = two_masses([[2.0, 1.0], [1.0, 3.0]]);
+        short.w.pop();
+        assert!(matches!(short.reduce(), Err(ContactError::Length { what: "w", .. })));
+        let mut outside = two_masses([[2.0, 1.0], [1.0, 3.0]]);
+        outside.h.entries.push((2, 0, 1.0));
+        assert!(matches!(outside.reduce(), Err(ContactError::Entry { what: "H", row: 2, .. })));
+    }
+}

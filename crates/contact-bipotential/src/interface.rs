@@ -1,0 +1,227 @@
+//! What may touch what: slave nodes against a master, with the law's parameters.
+
+use fe_core::Surface;
+use thiserror::Error;
+
+use crate::obstacle::Obstacle;
+
+/// What slave nodes may touch.
+#[derive(Clone, Debug)]
+#[allow(clippy::large_enum_variant)] // one an interface: boxing would buy nothing
+pub enum Master {
+    /// A rigid body with prescribed motion.
+    Obstacle(Obstacle),
+    /// A part of the boundary of a deformable body.
+    Surface(Surface),
+}
+
+/// A set of slave nodes and their master.
+#[derive(Clone, Debug)]
+pub struct Interface {
+    /// Name, for reports and errors.
+    pub name: String,
+    /// Slave nodes, in the order in which their contacts are numbered.
+    pub slave: Vec<u32>,
+    /// Tributary reference area of each slave node [m^2; in the plane, m times unit thickness].
+    pub area: Vec<f64>,
+    /// What the nodes may touch.
+    pub master: Master,
+    /// Coulomb friction coefficient [-], >= 0.
+    pub mu: f64,
+    /// Newton restitution coefficient [-], in [0, 1].
+    pub restitution: f64,
+    /// A node closer than this to the master becomes a contact, open or closed \[m\]. A node that lies deeper
+    /// than this behind a deformable master is not in contact: it came from the other side.
+    pub search_distance: f64,
+    /// How far a node may overhang the rim of a deformable master and still rest on it, as a part of the size
+    /// of the facet [-], >= 0. Enough for bodies with flush sides to stay in contact through round-off;
+    /// larger values keep flush sides that bulge differently together, at the price of a ledge that wide.
+    pub rim_tolerance: f64,
+}
+
+/// Default of [`Interface::rim_tolerance`] [-].
+pub const RIM_TOLERANCE: f64 = 1e-6;
+
+impl Interface {
+    /// A frictionless interface without restitution and with the default rim tolerance.
+    pub fn new(
+        name: &str,
+        slave: Vec<u32>,
+        area: Vec<f64>,
+        master: Master,
+        search_distance: f64,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            slave,
+            area,
+            master,
+            mu: 0.0,
+            restitution: 0.0,
+            search_distance,
+            rim_tolerance: RIM_TOLERANCE,
+        }
+    }
+
+    /// Checks the interface against a mesh of `nodes` nodes with `dim` unknowns each.
+    ///
+    /// # Errors
+    /// [`GeometryError`] that names the interface and the bound.
+    pub fn validate(&self, nodes: usize, dim: usize) -> Result<(), GeometryError> {
+        let refuse = |reason: String| {
+            Err(GeometryError::Interface {
+                interface: self.name.clone(),
+                reason,
+            })
+        };
+        if self.slave.is_empty() {
+            return refuse("it has no slave nodes; name a node set that is not empty".to_owned());
+        }
+        if self.area.len() != self.slave.len() {
+            return refuse(format!(
+                "{} areas for {} slave nodes; give one area a node",
+                self.area.len(),
+                self.slave.len()
+            ));
+        }
+        if let Some(node) = self.slave.iter().find(|n| **n as usize >= nodes) {
+            return refuse(format!(
+                "slave node {node} does not exist: the mesh has {nodes} nodes"
+            ));
+        }
+        if let Some(area) = self.area.iter().find(|a| !(**a >= 0.0 && a.is_finite())) {
+            return refuse(format!(
+                "a tributary area is {area} m^2; it must be >= 0 and finite"
+            ));
+        }
+        self.validate_parameters()?;
+        match &self.master {
+            Master::Obstacle(_) => Ok(()),
+            Master::Surface(surface) => self.validate_surface(surface, nodes, dim),
+        }
+    }
+
+    fn validate_parameters(&self) -> Result<(), GeometryError> {
+        let bounds = [
+            ("mu", self.mu, 0.0, f64::MAX, "must be >= 0 and finite"),
+            (
+                "restitution",
+                self.restitution,
+                0.0,
+                1.0,
+                "must lie in [0, 1]",
+            ),
+            (
+                "search distance [m]",
+                self.search_distance,
+                f64::MIN_POSITIVE,
+                f64::MAX,
+                "must be > 0 and finite",
+            ),
+            (
+                "rim tolerance",
+                self.rim_tolerance,
+                0.0,
+                1.0,
+                "must lie in [0, 1]",
+            ),
+        ];
+        for (name, value, least, most, bound) in bounds {
+            if !(value >= least && value <= most) {
+                let reason = format!("{name} is {value}; it {bound}");
+                return Err(GeometryError::Interface {
+                    interface: self.name.clone(),
+                    reason,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn validate_surface(
+        &self,
+        surface: &Surface,
+        nodes: usize,
+        dim: usize,
+    ) -> Result<(), GeometryError> {
+        let refuse = |reason: String| {
+            Err(GeometryError::Interface {
+                interface: self.name.clone(),
+                reason,
+            })
+        };
+        if dim != 3 || surface.dim() != 3 {
+            return refuse(
+                "a deformable master needs a mesh in space, with triangles or quadrilaterals"
+                    .to_owned(),
+            );
+        }
+        if let Some(node) = surface.nodes.iter().find(|n| **n as usize >= nodes) {
+            return refuse(format!(
+                "master node {node} does not exist: the mesh has {nodes} nodes"
+            ));
+        }
+        match self.slave.iter().find(|n| surface.index_of(**n).is_some()) {
+            Some(node) => refuse(format!(
+                "node {node} is slave and master at once; split the surface in two"
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Contact geometry that cannot be used.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum GeometryError {
+    /// A parameter of an obstacle outside of its bound.
+    #[error("{name} is {value}: it {bound}")]
+    Parameter {
+        /// Name and unit of the parameter.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The bound.
+        bound: &'static str,
+    },
+    /// An interface that makes no sense.
+    #[error("interface {interface:?}: {reason}")]
+    Interface {
+        /// Name of the interface.
+        interface: String,
+        /// What is wrong and what to try.
+        reason: String,
+    },
+    /// An unknown number of unknowns a node, or positions that do not match it.
+    #[error(
+        "positions of {length} entries with {dim} unknowns a node; give 2 or 3 unknowns and whole nodes"
+    )]
+    Positions {
+        /// Unknowns a node.
+        dim: usize,
+        /// Entries found.
+        length: usize,
+    },
+    /// A compliance that does not fit its list of rows.
+    #[error(
+        "a compliance of {rows} x {columns} with rows up to {largest}; it must be square and hold every row"
+    )]
+    Compliance {
+        /// Rows of the matrix.
+        rows: usize,
+        /// Columns of the matrix.
+        columns: usize,
+        /// Largest row asked for.
+        largest: usize,
+    },
+    /// A cone that does not fit the dimension of the mesh.
+    #[error(
+        "contacts with {cone} components in a mesh with {dim} unknowns a node; give 1 (frictionless) or {dim}"
+    )]
+    Cone {
+        /// Entries a contact.
+        cone: usize,
+        /// Unknowns a node.
+        dim: usize,
+    },
+}

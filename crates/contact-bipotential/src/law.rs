@@ -1,0 +1,112 @@
+//! Contact and friction at one point: the natural map and the status.
+
+use crate::cone::{self, Region};
+use crate::local::{Vector, difference, tangential_dot, tangential_norm};
+
+/// What a contact does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Status {
+    /// Free: no reaction.
+    Separate,
+    /// Closed, no relative motion.
+    Stick,
+    /// Closed, sliding; the friction force is at its limit.
+    Slip,
+}
+
+/// `F = r - Proj_K(r - rho (u + mu |u_t| n))`, in the unit of `r`; zero exactly where the law holds.
+#[inline]
+pub fn natural_map<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
+    difference(r, &cone::project(mu, &candidate(mu, rho, u, r)))
+}
+
+/// The status that the point `r - rho (u + mu |u_t| n)` predicts.
+#[inline]
+pub fn status<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Status {
+    match cone::region(mu, &candidate(mu, rho, u, r)) {
+        Region::Polar => Status::Separate,
+        Region::Inside => Status::Stick,
+        Region::Surface => Status::Slip,
+    }
+}
+
+#[inline(always)]
+fn candidate<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
+    let v = cone::modified_velocity(mu, u);
+    let mut z = *r;
+    for i in 0..D {
+        z[i] -= rho * v[i];
+    }
+    z
+}
+
+/// How one contact stands with the law, in words a mechanician checks by hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactDiagnostic {
+    /// Status by the natural map.
+    pub status: Status,
+    /// `max(0, -u_n)`, unit of `u`.
+    pub penetration: f64,
+    /// `mu r_n - |r_t|`, unit of `r`: negative where the reaction leaves the cone.
+    pub cone_slack: f64,
+    /// Angle between the friction force and the direction against sliding [rad]; 0 where either vanishes.
+    pub misalignment: f64,
+    /// Share of this contact in the scale-free error.
+    pub error: f64,
+}
+
+/// Diagnoses one contact; `rho` is its compliance scale, `1 / mean diagonal of W_cc`.
+pub fn diagnose<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> ContactDiagnostic {
+    let (ut, rt) = (tangential_norm(u), tangential_norm(r));
+    let product = ut * rt;
+    let misalignment = if product > 0.0 {
+        (-tangential_dot(u, r) / product).clamp(-1.0, 1.0).acos()
+    } else {
+        0.0
+    };
+    let status = status(mu, rho, u, r);
+    ContactDiagnostic {
+        status,
+        penetration: (-u[D - 1]).max(0.0),
+        cone_slack: mu * r[D - 1] - rt,
+        misalignment: if status == Status::Slip { misalignment } else { 0.0 },
+        error: 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_law_holds_in_each_status_whatever_rho() {
+        let mu = 0.4;
+        let cases = [
+            (Status::Separate, [0.3, -0.1, 0.2], [0.0, 0.0, 0.0]),
+            (Status::Stick, [0.0, 0.0, 0.0], [0.1, 0.2, 1.0]),
+            (Status::Slip, [0.3, 0.4, 0.0], [-0.24, -0.32, 1.0]),
+        ];
+        for (expected, u, r) in cases {
+            for rho in [1e-3, 1.0, 1e3] {
+                let f = natural_map(mu, rho, &u, &r);
+                assert!(f.iter().all(|x| x.abs() < 1e-12), "{expected:?} {f:?}");
+                assert_eq!(status(mu, rho, &u, &r), expected);
+            }
+            let d = diagnose(mu, 1.0, &u, &r);
+            assert!(d.penetration == 0.0 && d.cone_slack > -1e-15 && d.misalignment < 1e-7);
+        }
+    }
+
+    #[test]
+    fn each_violation_shows_where_it_belongs() {
+        let mu = 0.5;
+        assert_eq!(diagnose(mu, 1.0, &[0.0, 0.0, -0.25], &[0.0, 0.0, 1.0]).penetration, 0.25);
+        assert_eq!(diagnose(mu, 1.0, &[0.0, 0.0, 0.0], &[1.0, 0.0, 1.0]).cone_slack, -0.5);
+        let turned = diagnose(mu, 1.0, &[1.0, 0.0, 0.0], &[0.0, 0.5, 1.0]);
+        assert!((turned.misalignment - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+        for (u, r) in [([0.0, 0.0, -0.25], [0.0, 0.0, 1.0]), ([1.0, 0.0, 0.0], [0.0, 0.5, 1.0])] {
+            let f = natural_map(mu, 1.0, &u, &r);
+            assert!(f.iter().any(|x| x.abs() > 0.1));
+        }
+    }
+}

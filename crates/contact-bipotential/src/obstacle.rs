@@ -1,0 +1,342 @@
+//! Rigid obstacles with prescribed motion: shape, signed gap, normal and the motion of the point under a contact.
+
+use fe_core::Motion;
+
+use crate::interface::GeometryError;
+use crate::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
+
+/// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A half-space.
+    Plane {
+        /// A point of its surface \[m\].
+        point: [f64; 3],
+        /// Direction out of the solid; any length but zero.
+        normal: [f64; 3],
+    },
+    /// A ball.
+    Sphere {
+        /// Centre \[m\].
+        center: [f64; 3],
+        /// Radius \[m\].
+        radius: f64,
+    },
+    /// An infinitely long solid cylinder.
+    Cylinder {
+        /// A point on the axis \[m\].
+        point: [f64; 3],
+        /// Direction of the axis; any length but zero.
+        axis: [f64; 3],
+        /// Radius \[m\].
+        radius: f64,
+    },
+    /// An infinitely tall solid cone: a sharp indenter.
+    Cone {
+        /// Apex \[m\].
+        apex: [f64; 3],
+        /// Direction from the apex into the solid; any length but zero.
+        axis: [f64; 3],
+        /// Angle between axis and surface \[rad\], in (0, pi/2).
+        semi_apex_angle: f64,
+    },
+}
+
+impl Shape {
+    /// The same shape with unit directions.
+    ///
+    /// # Errors
+    /// [`GeometryError`] with the bound when a parameter lies outside of it: points and radii must be finite,
+    /// radii positive, directions not zero, the semi-apex angle between 0 and 90 degrees.
+    pub fn checked(self) -> Result<Self, GeometryError> {
+        match self {
+            Shape::Plane { point, normal } => Ok(Shape::Plane {
+                point: finite("plane point", point)?,
+                normal: direction("plane normal", normal)?,
+            }),
+            Shape::Sphere { center, radius } => Ok(Shape::Sphere {
+                center: finite("sphere center", center)?,
+                radius: positive("sphere radius [m]", radius)?,
+            }),
+            Shape::Cylinder {
+                point,
+                axis,
+                radius,
+            } => Ok(Shape::Cylinder {
+                point: finite("cylinder point", point)?,
+                axis: direction("cylinder axis", axis)?,
+                radius: positive("cylinder radius [m]", radius)?,
+            }),
+            Shape::Cone {
+                apex,
+                axis,
+                semi_apex_angle,
+            } => {
+                let inside = semi_apex_angle > 0.0 && semi_apex_angle < std::f64::consts::FRAC_PI_2;
+                if !inside {
+                    return Err(GeometryError::Parameter {
+                        name: "semi-apex angle [rad]",
+                        value: semi_apex_angle,
+                        bound: "must lie between 0 and pi/2 (90 degrees), both excluded",
+                    });
+                }
+                Ok(Shape::Cone {
+                    apex: finite("cone apex", apex)?,
+                    axis: direction("cone axis", axis)?,
+                    semi_apex_angle,
+                })
+            }
+        }
+    }
+
+    /// The shape where the motion takes it at time `t` \[s\].
+    fn moved(&self, motion: &Motion, t: f64) -> Self {
+        let place = |x| motion.position(x, t);
+        let turn = |a| motion.rotate(a, t);
+        match *self {
+            Shape::Plane { point, normal } => Shape::Plane {
+                point: place(point),
+                normal: turn(normal),
+            },
+            Shape::Sphere { center, radius } => Shape::Sphere {
+                center: place(center),
+                radius,
+            },
+            Shape::Cylinder {
+                point,
+                axis,
+                radius,
+            } => Shape::Cylinder {
+                point: place(point),
+                axis: turn(axis),
+                radius,
+            },
+            Shape::Cone {
+                apex,
+                axis,
+                semi_apex_angle,
+            } => Shape::Cone {
+                apex: place(apex),
+                axis: turn(axis),
+                semi_apex_angle,
+            },
+        }
+    }
+
+    /// Closest surface point to `x`; the shape must have unit directions.
+    ///
+    /// `core` \[m\]: a point this close to a place without a normal (centre, axis, apex) takes the definite one.
+    fn closest(&self, x: Vec3, core: f64) -> SurfacePoint {
+        match *self {
+            Shape::Plane { point, normal } => {
+                let gap = dot(normal, sub(x, point));
+                SurfacePoint {
+                    gap,
+                    normal,
+                    point: axpy(x, -gap, normal),
+                }
+            }
+            Shape::Sphere { center, radius } => {
+                round(sub(x, center), center, radius, core, [0.0, 0.0, 1.0])
+            }
+            Shape::Cylinder {
+                point,
+                axis,
+                radius,
+            } => {
+                let along = axpy(point, dot(sub(x, point), axis), axis);
+                round(
+                    reject(sub(x, point), axis),
+                    along,
+                    radius,
+                    core,
+                    across(axis),
+                )
+            }
+            Shape::Cone {
+                apex,
+                axis,
+                semi_apex_angle,
+            } => cone(x, apex, axis, semi_apex_angle, core),
+        }
+    }
+}
+
+/// The surface point of an obstacle closest to a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Signed distance \[m\], negative inside the solid.
+    pub gap: f64,
+    /// Unit normal out of the solid.
+    pub normal: [f64; 3],
+    /// The point \[m\].
+    pub point: [f64; 3],
+}
+
+fn round(arm: Vec3, center: Vec3, radius: f64, core: f64, definite: Vec3) -> SurfacePoint {
+    let distance = norm(arm);
+    let normal = if distance > core {
+        unit(arm).unwrap_or(definite)
+    } else {
+        definite
+    };
+    SurfacePoint {
+        gap: distance - radius,
+        normal,
+        point: axpy(center, radius, normal),
+    }
+}
+
+/// A fixed direction perpendicular to a unit vector.
+fn across(axis: Vec3) -> Vec3 {
+    let k = if axis[2].abs() < 0.9 {
+        [0.0, 0.0, 1.0]
+    } else {
+        [1.0, 0.0, 0.0]
+    };
+    unit(reject(k, axis)).unwrap_or(k)
+}
+
+/// In the half-plane (radius rho, depth s along the axis) the surface is the ray along `(sin a, cos a)`.
+///
+/// The apex has no normal, and on the axis inside the solid every direction around is equally close: within
+/// `core` of either the normal is `-axis` and the gap the depth. A node under the tip then meets the tip
+/// head-on, whatever its round-off, instead of being pushed aside.
+fn cone(x: Vec3, apex: Vec3, axis: Vec3, angle: f64, core: f64) -> SurfacePoint {
+    let arm = sub(x, apex);
+    let s = dot(arm, axis);
+    let side = reject(arm, axis);
+    let rho = norm(side);
+    let (sin, cos) = angle.sin_cos();
+    let along = rho * sin + s * cos;
+    let tip = |gap, normal| SurfacePoint {
+        gap,
+        normal,
+        point: apex,
+    };
+    if rho <= core {
+        return tip(-s, scale(-1.0, axis));
+    }
+    if along <= 0.0 {
+        let distance = norm(arm);
+        return tip(distance, unit(arm).unwrap_or(scale(-1.0, axis)));
+    }
+    let out = scale(1.0 / rho, side);
+    let normal = axpy(scale(cos, out), -sin, axis);
+    let point = axpy(axpy(apex, along * sin, out), along * cos, axis);
+    SurfacePoint {
+        gap: rho * cos - s * sin,
+        normal,
+        point,
+    }
+}
+
+/// A shape with its motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Obstacle {
+    shape: Shape,
+    motion: Motion,
+}
+
+impl Obstacle {
+    /// An obstacle that is where its shape says at zero displacement.
+    ///
+    /// # Errors
+    /// What [`Shape::checked`] refuses.
+    pub fn new(shape: Shape, motion: Motion) -> Result<Self, GeometryError> {
+        Ok(Self {
+            shape: shape.checked()?,
+            motion,
+        })
+    }
+
+    /// The shape at its reference position, with unit directions.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The motion.
+    pub fn motion(&self) -> &Motion {
+        &self.motion
+    }
+
+    /// The obstacle at the end of a step from `t0` to `t1` \[s\].
+    pub fn over_step(&self, t0: f64, t1: f64) -> PlacedObstacle<'_> {
+        PlacedObstacle {
+            shape: self.shape.moved(&self.motion, t1),
+            motion: (!self.motion.is_still()).then_some(&self.motion),
+            t0,
+            t1,
+        }
+    }
+}
+
+/// An obstacle at the end of a step: positions evaluated once, then asked for many nodes.
+#[derive(Clone, Debug)]
+pub struct PlacedObstacle<'a> {
+    shape: Shape,
+    motion: Option<&'a Motion>,
+    t0: f64,
+    t1: f64,
+}
+
+impl PlacedObstacle<'_> {
+    /// The shape at the end of the step.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Gap, normal and closest point for the position `x` \[m\] at the end of the step.
+    ///
+    /// `core` \[m\], small against the mesh: nearer than this to a centre, an axis or an apex, where there is no
+    /// unique normal, a fixed one is taken: along the axis out of the apex (cone), `e_z` (sphere), or a fixed
+    /// direction across the axis (cylinder).
+    pub fn closest(&self, x: [f64; 3], core: f64) -> SurfacePoint {
+        self.shape.closest(x, core)
+    }
+
+    /// Displacement \[m\] over the step of the obstacle's material point that ends it at `point` \[m\].
+    pub fn displacement(&self, point: [f64; 3]) -> [f64; 3] {
+        self.motion.map_or([0.0; 3], |motion| {
+            let x = motion.pull_back(point, self.t1);
+            sub(
+                motion.displacement(x, self.t1),
+                motion.displacement(x, self.t0),
+            )
+        })
+    }
+}
+
+fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], GeometryError> {
+    match x.iter().find(|c| !c.is_finite()) {
+        Some(&value) => Err(GeometryError::Parameter {
+            name,
+            value,
+            bound: "must be finite",
+        }),
+        None => Ok(x),
+    }
+}
+
+fn direction(name: &'static str, a: [f64; 3]) -> Result<[f64; 3], GeometryError> {
+    unit(a).ok_or(GeometryError::Parameter {
+        name,
+        value: norm(a),
+        bound: "must be a finite vector of length > 0",
+    })
+}
+
+fn positive(name: &'static str, value: f64) -> Result<f64, GeometryError> {
+    if value > 0.0 && value.is_finite() {
+        Ok(value)
+    } else {
+        Err(GeometryError::Parameter {
+            name,
+            value,
+            bound: "must be positive and finite",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,221 @@
+//! Signed distances against their defining properties, and the kinematics of moving obstacles.
+
+use super::*;
+use fe_core::{Interpolation, Rotation, Table};
+use proptest::prelude::*;
+
+const CORE: f64 = 1e-12;
+
+fn vector(size: f64) -> impl Strategy<Value = Vec3> {
+    [-size..size, -size..size, -size..size]
+}
+
+fn axis() -> impl Strategy<Value = Vec3> {
+    vector(1.0).prop_filter("needs a direction", |a| norm(*a) > 0.1)
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    prop_oneof![
+        (vector(1.0), axis()).prop_map(|(point, normal)| Shape::Plane { point, normal }),
+        (vector(1.0), 0.1f64..2.0).prop_map(|(center, radius)| Shape::Sphere { center, radius }),
+        (vector(1.0), axis(), 0.1f64..2.0).prop_map(|(point, axis, radius)| Shape::Cylinder {
+            point,
+            axis,
+            radius
+        }),
+        (vector(1.0), axis(), 0.1f64..1.5).prop_map(|(apex, axis, semi_apex_angle)| Shape::Cone {
+            apex,
+            axis,
+            semi_apex_angle
+        }),
+    ]
+}
+
+fn table() -> impl Strategy<Value = Table> {
+    (-1.0f64..1.0, -1.0f64..1.0)
+        .prop_map(|(a, b)| Table::new(vec![(0.0, a), (1.0, b)], Interpolation::Linear).unwrap())
+}
+
+fn motion() -> impl Strategy<Value = Motion> {
+    ([table(), table(), table()], vector(2.0), axis(), table()).prop_map(
+        |(translation, point, axis, angle)| Motion {
+            translation,
+            rotation: Some(Rotation::new(point, axis, angle).unwrap()),
+        },
+    )
+}
+
+proptest! {
+    #[test]
+    fn gap_is_the_signed_distance_along_the_normal(shape in shape(), x in vector(4.0)) {
+        let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
+        let placed = obstacle.over_step(0.0, 1.0);
+        let at = placed.closest(x, CORE);
+        prop_assert!((norm(at.normal) - 1.0).abs() < 1e-14);
+        // The node lies on the normal through the closest point, at the gap, and that point on the surface.
+        prop_assert!(norm(sub(axpy(at.point, at.gap, at.normal), x)) < 1e-13);
+        prop_assert!(placed.closest(at.point, CORE).gap.abs() < 1e-13);
+        prop_assert_eq!(placed.displacement(at.point), [0.0; 3]);
+    }
+
+    #[test]
+    fn no_surface_point_is_closer_than_the_gap(shape in shape(), x in vector(4.0), samples in prop::collection::vec(vector(4.0), 30)) {
+        let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
+        let placed = obstacle.over_step(0.0, 1.0);
+        let gap = placed.closest(x, CORE).gap;
+        for y in samples {
+            // A signed distance changes no faster than its argument.
+            let other = placed.closest(y, CORE).gap;
+            prop_assert!((gap - other).abs() <= norm(sub(x, y)) + 1e-13);
+        }
+    }
+
+    #[test]
+    fn normal_is_the_gradient_of_the_gap(shape in shape(), x in vector(4.0)) {
+        let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
+        let placed = obstacle.over_step(0.0, 1.0);
+        let at = placed.closest(x, CORE);
+        let h = 1e-5;
+        // Centre and axis have no gradient.
+        prop_assume!(norm(sub(x, at.point)) + at.gap.abs() > 0.0);
+        let gap = |i: usize, s: f64| {
+            let mut y = x;
+            y[i] += s;
+            placed.closest(y, CORE).gap
+        };
+        let gradient: Vec3 = std::array::from_fn(|i| (gap(i, h) - gap(i, -h)) / (2.0 * h));
+        prop_assume!((norm(gradient) - 1.0).abs() < 1e-4);
+        prop_assert!(norm(sub(gradient, at.normal)) < 1e-3);
+    }
+
+    #[test]
+    fn a_moving_obstacle_carries_its_distance_field(shape in shape(), motion in motion(), x in vector(3.0), t in 0.0f64..1.0) {
+        let still = Obstacle::new(shape, Motion::still()).unwrap();
+        let moving = Obstacle::new(shape, motion.clone()).unwrap();
+        let before = still.over_step(0.0, t).closest(x, CORE);
+        let after = moving.over_step(0.0, t).closest(motion.position(x, t), CORE);
+        prop_assert!((before.gap - after.gap).abs() < 1e-13);
+        prop_assert!(norm(sub(motion.rotate(before.normal, t), after.normal)) < 1e-10);
+        prop_assert!(norm(sub(motion.position(before.point, t), after.point)) < 1e-10);
+    }
+
+    #[test]
+    fn displacement_is_that_of_the_material_point(motion in motion(), x in vector(3.0), t0 in 0.0f64..0.5, t1 in 0.5f64..1.0) {
+        let plane = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+        let obstacle = Obstacle::new(plane, motion.clone()).unwrap();
+        let moved = obstacle.over_step(t0, t1).displacement(motion.position(x, t1));
+        prop_assert!(norm(sub(moved, sub(motion.position(x, t1), motion.position(x, t0)))) < 1e-13);
+        // A rate exists: over a short step the displacement is velocity times step.
+        let dt = 1e-6;
+        let short = obstacle.over_step(t1 - dt, t1).displacement(motion.position(x, t1));
+        prop_assert!(norm(sub(scale(1.0 / dt, short), motion.velocity(x, t1 - 0.5 * dt))) < 1e-7);
+    }
+}
+
+#[test]
+fn parameters_outside_their_bounds_are_refused() {
+    let point = [0.0; 3];
+    let axis = [0.0, 0.0, 1.0];
+    let bad = [
+        Shape::Plane {
+            point,
+            normal: [0.0; 3],
+        },
+        Shape::Plane {
+            point: [f64::NAN, 0.0, 0.0],
+            normal: axis,
+        },
+        Shape::Plane {
+            point,
+            normal: [f64::INFINITY, 0.0, 0.0],
+        },
+        Shape::Sphere {
+            center: point,
+            radius: 0.0,
+        },
+        Shape::Sphere {
+            center: point,
+            radius: -1.0,
+        },
+        Shape::Sphere {
+            center: point,
+            radius: f64::NAN,
+        },
+        Shape::Cylinder {
+            point,
+            axis: [0.0; 3],
+            radius: 1.0,
+        },
+        Shape::Cylinder {
+            point,
+            axis,
+            radius: f64::INFINITY,
+        },
+        Shape::Cone {
+            apex: point,
+            axis,
+            semi_apex_angle: 0.0,
+        },
+        Shape::Cone {
+            apex: point,
+            axis,
+            semi_apex_angle: std::f64::consts::FRAC_PI_2,
+        },
+        Shape::Cone {
+            apex: point,
+            axis,
+            semi_apex_angle: f64::NAN,
+        },
+        Shape::Cone {
+            apex: point,
+            axis: [f64::NAN; 3],
+            semi_apex_angle: 1.0,
+        },
+    ];
+    for shape in bad {
+        let error = Obstacle::new(shape, Motion::still()).unwrap_err();
+        assert!(error.to_string().contains("must"), "{error}");
+    }
+}
+
+#[test]
+fn a_node_under_the_tip_meets_it_head_on() {
+    let down = Shape::Cone {
+        apex: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        semi_apex_angle: 1.0,
+    };
+    let obstacle = Obstacle::new(down, Motion::still()).unwrap();
+    let placed = obstacle.over_step(0.0, 0.0);
+    for z in [-0.5, -1e-17, 0.0, 1e-17, 0.5] {
+        for x in [0.0, 1e-15, -1e-13] {
+            let at = placed.closest([x, 0.0, z], 1e-9);
+            assert_eq!(at.normal, [0.0, 0.0, -1.0]);
+            assert_eq!(at.gap, -z);
+        }
+    }
+    // Beside the tip the surface has its own normal again.
+    let side = placed.closest([0.1, 0.0, 0.1], 1e-9);
+    let expected = [1.0f64.cos(), 0.0, -1.0f64.sin()];
+    assert!(norm(sub(side.normal, expected)) < 1e-15);
+    assert!((side.gap - 0.1 * (1.0f64.cos() - 1.0f64.sin())).abs() < 1e-16);
+}
+
+#[test]
+fn centres_have_a_definite_finite_normal() {
+    let sphere = Shape::Sphere {
+        center: [1.0, 2.0, 3.0],
+        radius: 2.0,
+    };
+    let cylinder = Shape::Cylinder {
+        point: [0.0; 3],
+        axis: [0.0, 0.0, 1.0],
+        radius: 2.0,
+    };
+    for (shape, x) in [(sphere, [1.0, 2.0, 3.0]), (cylinder, [0.0, 0.0, 5.0])] {
+        let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
+        let at = obstacle.over_step(0.0, 0.0).closest(x, 0.0);
+        assert_eq!(at.gap, -2.0);
+        assert!((norm(at.normal) - 1.0).abs() < 1e-15);
+    }
+}

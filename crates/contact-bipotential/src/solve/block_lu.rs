@@ -1,0 +1,310 @@
+//! Sparse LU by contacts: `D x D` blocks, symmetric pattern, minimum-degree order, pivoting inside of a block only.
+//!
+//! Contact networks of rigid bodies fill in little, and their blocks are too small for supernodes: one row after the other
+//! is cheapest. Without pivoting across blocks the result may be poor where the matrix is nearly singular; the callers
+//! check what they do with it.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+
+use crate::delassus::BlockSparse;
+use crate::local::{Matrix, Vector, inverse, times};
+
+/// A block padded to four columns, so that a row of it is one vector register.
+type Padded = [[f64; 4]; 3];
+
+/// The order of elimination and the storage of the factors.
+#[derive(Debug)]
+pub(crate) struct BlockLu<const D: usize> {
+    /// Contact at each place of the elimination.
+    order: Vec<u32>,
+    place: Vec<u32>,
+    upper: Pattern,
+    lower: Pattern,
+    u: Vec<Padded>,
+    l: Vec<Padded>,
+    pivots: Vec<Matrix<D>>,
+    work: Vec<Padded>,
+}
+
+#[derive(Debug, Default)]
+struct Pattern {
+    offsets: Vec<usize>,
+    columns: Vec<u32>,
+}
+
+impl Pattern {
+    #[inline(always)]
+    fn range(&self, k: usize) -> std::ops::Range<usize> {
+        self.offsets[k]..self.offsets[k + 1]
+    }
+}
+
+/// One block row of the matrix to factorise, written by its owner.
+pub(crate) trait BlockRows<const D: usize> {
+    /// Calls `put(column, block)` for every block of row `c` that is not zero, the diagonal among them.
+    fn row(&self, c: usize, put: impl FnMut(usize, &Matrix<D>));
+    /// Whether row and column `c` hold nothing but the diagonal.
+    fn is_alone(&self, c: usize) -> bool;
+}
+
+impl<const D: usize> BlockLu<D> {
+    /// The order for the pattern of `w`.
+    pub(crate) fn new(w: &BlockSparse) -> Self {
+        let n = w.contacts();
+        let order = minimum_degree(w).unwrap_or_else(|| (0..n as u32).collect());
+        let mut place = vec![0; n];
+        for (k, &c) in order.iter().enumerate() {
+            place[c as usize] = k as u32;
+        }
+        BlockLu {
+            order,
+            place,
+            upper: Pattern::default(),
+            lower: Pattern::default(),
+            u: Vec::new(),
+            l: Vec::new(),
+            pivots: vec![[[0.0; D]; D]; n],
+            work: vec![[[0.0; 4]; 3]; n],
+        }
+    }
+
+    /// Factorises; false when a pivot block is singular.
+    pub(crate) fn factorize(&mut self, w: &BlockSparse, rows: &impl BlockRows<D>) -> bool {
+        self.symbolic(w, rows);
+        let n = self.order.len();
+        self.u.clear();
+        self.u.resize(self.upper.columns.len(), [[0.0; 4]; 3]);
+        self.l.clear();
+        self.l.resize(self.lower.columns.len(), [[0.0; 4]; 3]);
+        for i in 0..n {
+            let (work, place) = (&mut self.work, &self.place);
+            rows.row(self.order[i] as usize, |c, block| {
+                let slot = &mut work[place[c] as usize];
+                for a in 0..D {
+                    for b in 0..D {
+                        slot[a][b] += block[a][b];
+                    }
+                }
+            });
+            if !self.eliminate(i) {
+                self.work.fill([[0.0; 4]; 3]);
+                return false;
+            }
+        }
+        true
+    }
+
+    #[inline]
+    fn eliminate(&mut self, i: usize) -> bool {
+        for at in self.lower.range(i) {
+            let k = self.lower.columns[at] as usize;
+            let x = std::mem::replace(&mut self.work[k], [[0.0; 4]; 3]);
+            // L_ik = A_ik U_kk^-1
+            let mut l = [[0.0; 4]; 3];
+            for a in 0..D {
+                for b in 0..D {
+                    for m in 0..D {
+                        l[a][b] += x[a][m] * self.pivots[k][m][b];
+                    }
+                }
+            }
+            let range = self.upper.range(k);
+            for (&j, u) in self.upper.columns[range.clone()].iter().zip(&self.u[range]) {
+                let target = &mut self.work[j as usize];
+                for a in 0..D {
+                    for m in 0..D {
+                        for b in 0..4 {
+                            target[a][b] = (-l[a][m]).mul_add(u[m][b], target[a][b]);
+                        }
+                    }
+                }
+            }
+            self.l[at] = l;
+        }
+        for at in self.upper.range(i) {
+            self.u[at] = std::mem::replace(&mut self.work[self.upper.columns[at] as usize], [[0.0; 4]; 3]);
+        }
+        let d = std::mem::replace(&mut self.work[i], [[0.0; 4]; 3]);
+        let mut pivot = [[0.0; D]; D];
+        for a in 0..D {
+            pivot[a].copy_from_slice(&d[a][..D]);
+        }
+        match inverse(&pivot) {
+            Some(inv) => {
+                self.pivots[i] = inv;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Overwrites the right side with the solution.
+    pub(crate) fn solve(&self, x: &mut [f64]) {
+        let n = self.order.len();
+        let mut y = vec![[0.0; D]; n];
+        for i in 0..n {
+            let c = self.order[i] as usize;
+            let mut s: Vector<D> = [0.0; D];
+            s.copy_from_slice(&x[c * D..c * D + D]);
+            for at in self.lower.range(i) {
+                subtract(&mut s, &self.l[at], &y[self.lower.columns[at] as usize]);
+            }
+            y[i] = s;
+        }
+        for i in (0..n).rev() {
+            let mut s = y[i];
+            for at in self.upper.range(i) {
+                subtract(&mut s, &self.u[at], &y[self.upper.columns[at] as usize]);
+            }
+            y[i] = times(&self.pivots[i], &s);
+            let c = self.order[i] as usize;
+            x[c * D..c * D + D].copy_from_slice(&y[i]);
+        }
+    }
+
+    /// Pattern of the factors for the rows that are not alone, by merging each column into its parent.
+    fn symbolic(&mut self, w: &BlockSparse, rows: &impl BlockRows<D>) {
+        let n = self.order.len();
+        let upper = &mut self.upper;
+        upper.offsets.clear();
+        upper.offsets.push(0);
+        upper.columns.clear();
+        let mut mark = vec![u32::MAX; n];
+        let (mut first_child, mut next_sibling) = (vec![u32::MAX; n], vec![u32::MAX; n]);
+        let mut count = vec![0usize; n + 1];
+        for k in 0..n {
+            let c = self.order[k] as usize;
+            let start = upper.columns.len();
+            mark[k] = k as u32;
+            if !rows.is_alone(c) {
+                for &j in w.row(c) {
+                    let p = self.place[j as usize];
+                    if p as usize > k && mark[p as usize] != k as u32 && !rows.is_alone(j as usize) {
+                        mark[p as usize] = k as u32;
+                        upper.columns.push(p);
+                    }
+                }
+            }
+            let mut child = first_child[k];
+            while child != u32::MAX {
+                for at in upper.range(child as usize) {
+                    let p = upper.columns[at];
+                    if p as usize > k && mark[p as usize] != k as u32 {
+                        mark[p as usize] = k as u32;
+                        upper.columns.push(p);
+                    }
+                }
+                child = next_sibling[child as usize];
+            }
+            upper.columns[start..].sort_unstable();
+            if let Some(&parent) = upper.columns.get(start) {
+                next_sibling[k] = first_child[parent as usize];
+                first_child[parent as usize] = k as u32;
+            }
+            for &p in &upper.columns[start..] {
+                count[p as usize + 1] += 1;
+            }
+            upper.offsets.push(upper.columns.len());
+        }
+        for k in 0..n {
+            count[k + 1] += count[k];
+        }
+        self.lower.offsets.clone_from(&count);
+        self.lower.columns.clear();
+        self.lower.columns.resize(count[n], 0);
+        for k in 0..n {
+            for at in self.upper.range(k) {
+                let p = self.upper.columns[at] as usize;
+                self.lower.columns[count[p]] = k as u32;
+                count[p] += 1;
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn subtract<const D: usize>(s: &mut Vector<D>, block: &Padded, x: &Vector<D>) {
+    for a in 0..D {
+        for b in 0..D {
+            s[a] -= block[a][b] * x[b];
+        }
+    }
+}
+
+fn minimum_degree(w: &BlockSparse) -> Option<Vec<u32>> {
+    let n = w.contacts();
+    let mut offsets = vec![0usize];
+    let mut indices = Vec::with_capacity(w.block_count());
+    for c in 0..n {
+        indices.extend(w.row(c).iter().map(|&j| j as usize));
+        offsets.push(indices.len());
+    }
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, &offsets, None, &indices);
+    let (mut order, mut place) = (vec![0usize; n], vec![0usize; n]);
+    let mut memory = MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(n, indices.len())).ok()?;
+    let stack = MemStack::new(&mut memory);
+    amd::order_maybe_unsorted(&mut order, &mut place, pattern, amd::Control::default(), stack).ok()?;
+    Some(order.into_iter().map(|c| c as u32).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct All<'a>(&'a BlockSparse, Vec<bool>);
+    impl BlockRows<3> for All<'_> {
+        fn row(&self, c: usize, mut put: impl FnMut(usize, &Matrix<3>)) {
+            for (&j, block) in self.0.row(c).iter().zip(self.0.row_values(c).chunks_exact(9)) {
+                let alone = self.1[c] || self.1[j as usize];
+                if alone && j as usize != c {
+                    continue;
+                }
+                let mut m = [[0.0; 3]; 3];
+                for i in 0..3 {
+                    m[i].copy_from_slice(&block[3 * i..3 * i + 3]);
+                }
+                put(j as usize, &m);
+            }
+        }
+        fn is_alone(&self, c: usize) -> bool {
+            self.1[c]
+        }
+    }
+
+    #[test]
+    fn solves_what_the_dense_product_made() {
+        let n = 40;
+        let mut blocks = Vec::new();
+        for c in 0..n {
+            for j in [c, (c + 1) % n, (c * 7 + 3) % n] {
+                let v: Vec<f64> = (0..9).map(|k| (((c * 31 + j * 17 + k * 5) % 23) as f64 - 11.0) * 0.1).collect();
+                blocks.push((c, j, v.clone()));
+                blocks.push((j, c, v));
+            }
+            blocks.push((c, c, vec![9.0, 1.0, 0.0, -1.0, 8.0, 0.5, 0.0, 0.0, 7.0]));
+        }
+        let w = BlockSparse::from_blocks(n, 3, &blocks).unwrap();
+        let alone: Vec<bool> = (0..n).map(|c| c % 6 == 1).collect();
+        for rows in [All(&w, vec![false; n]), All(&w, alone)] {
+            let mut lu = BlockLu::<3>::new(&w);
+            assert!(lu.factorize(&w, &rows));
+            let x: Vec<f64> = (0..3 * n).map(|i| (i % 11) as f64 - 5.0).collect();
+            let mut b = vec![0.0; 3 * n];
+            for c in 0..n {
+                rows.row(c, |j, m| {
+                    for i in 0..3 {
+                        for k in 0..3 {
+                            b[3 * c + i] += m[i][k] * x[3 * j + k];
+                        }
+                    }
+                });
+            }
+            lu.solve(&mut b);
+            for i in 0..3 * n {
+                assert!((b[i] - x[i]).abs() < 1e-11, "{i}");
+            }
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! The error of a set of reactions, recomputed from nothing but the problem and `r`.
+
+use crate::cone::{Cone, bipotential_gap};
+use crate::law::{ContactDiagnostic, diagnose, natural_map};
+use crate::local::{Vector, dot, load, max_abs};
+use crate::problem::ContactProblem;
+
+/// How far reactions are from solving a problem.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` [-]: the measure of Siconos. It mixes units.
+    pub siconos: f64,
+    /// The same with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance `w_c`
+    /// (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` [-]. It does not depend on units.
+    pub scale_free: f64,
+    /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm [-].
+    pub gap: f64,
+}
+
+impl Errors {
+    /// The error of something that is no candidate at all.
+    pub const WORST: Errors = Errors { siconos: f64::MAX, scale_free: f64::MAX, gap: f64::MAX };
+
+    /// The larger of the two errors that a solution is judged by.
+    pub fn worst(&self) -> f64 {
+        self.siconos.max(self.scale_free)
+    }
+}
+
+/// A problem with the scales its errors are measured by.
+#[derive(Debug)]
+pub struct Truth<'a> {
+    problem: &'a ContactProblem,
+    scales: Vec<f64>,
+    roots: Vec<f64>,
+}
+
+impl<'a> Truth<'a> {
+    /// Prepares the scales.
+    pub fn new(problem: &'a ContactProblem) -> Self {
+        let scales = problem.compliance_scales();
+        let roots = scales.iter().map(|w| w.sqrt()).collect();
+        Truth { problem, scales, roots }
+    }
+
+    /// Compliance scale `w_c` of each contact.
+    pub fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    /// Fills `u = W r + q` and measures the errors.
+    pub fn evaluate(&self, r: &[f64], u: &mut [f64]) -> Errors {
+        self.velocity(r, u);
+        self.measure(r, u)
+    }
+
+    /// `u = W r + q`.
+    pub fn velocity(&self, r: &[f64], u: &mut [f64]) {
+        self.problem.w.times(r, u);
+        for (u, q) in u.iter_mut().zip(&self.problem.q) {
+            *u += q;
+        }
+    }
+
+    /// The errors of `r` with a `u` known to belong to it.
+    pub fn measure(&self, r: &[f64], u: &[f64]) -> Errors {
+        match self.problem.cone {
+            Cone::Frictionless => self.measure_with::<1>(r, u),
+            Cone::Planar => self.measure_with::<2>(r, u),
+            Cone::Spatial => self.measure_with::<3>(r, u),
+        }
+    }
+
+    fn measure_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Errors {
+        // Brought to order one first: squares of any admissible number then neither overflow nor all vanish.
+        let (plain, energy) = self.magnitudes::<D>(r, u);
+        if !plain.is_finite() || !energy.is_finite() {
+            return Errors::WORST;
+        }
+        let (k, e) = (reciprocal(plain), reciprocal(energy));
+        let mut raw = Sums::default();
+        let mut free = Sums::default();
+        for (c, &mu) in self.problem.mu.iter().enumerate() {
+            let root = self.roots[c];
+            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
+            raw.add(mu, &scaled(&rc, k), &scaled(&uc, k), &scaled(&qc, k));
+            free.add(mu, &scaled(&rc, e * root), &scaled(&uc, e / root), &scaled(&qc, e / root));
+        }
+        let errors = Errors { siconos: raw.error(), scale_free: free.error(), gap: free.gap() };
+        if errors.worst().is_finite() { errors } else { Errors::WORST }
+    }
+
+    fn magnitudes<const D: usize>(&self, r: &[f64], u: &[f64]) -> (f64, f64) {
+        let (mut plain, mut energy, mut sum) = (0.0_f64, 0.0_f64, 0.0);
+        for (c, root) in self.roots.iter().enumerate() {
+            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
+            let (mr, mv) = (max_abs(&rc), max_abs(&uc).max(max_abs(&qc)));
+            plain = plain.max(mr).max(mv);
+            energy = energy.max(mr * root).max(mv / root);
+            // `max` forgets NaN, a sum does not.
+            for i in 0..D {
+                sum += rc[i] * 0.0 + uc[i] * 0.0;
+            }
+        }
+        (plain + sum, energy + sum)
+    }
+
+    /// How each contact stands with the law.
+    pub fn diagnose(&self, r: &[f64], u: &[f64]) -> Vec<ContactDiagnostic> {
+        match self.problem.cone {
+            Cone::Frictionless => self.diagnose_with::<1>(r, u),
+            Cone::Planar => self.diagnose_with::<2>(r, u),
+            Cone::Spatial => self.diagnose_with::<3>(r, u),
+        }
+    }
+
+    fn diagnose_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Vec<ContactDiagnostic> {
+        let (_, energy) = self.magnitudes::<D>(r, u);
+        let e = reciprocal(energy);
+        let mut total = 0.0;
+        for c in 0..self.scales.len() {
+            let root = self.roots[c];
+            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
+            let size = [scaled(&rc, e * root), scaled(&uc, e / root), scaled(&qc, e / root)];
+            total += size.iter().map(|v| dot(v, v)).fold(0.0, f64::max);
+        }
+        let total = if total > 0.0 { total.sqrt() } else { 1.0 };
+        let one = |c: usize| {
+            let (mu, root) = (self.problem.mu[c], self.roots[c]);
+            let (rc, uc) = (load::<D>(r, c), load::<D>(u, c));
+            let f = natural_map(mu, 1.0, &scaled(&uc, e / root), &scaled(&rc, e * root));
+            ContactDiagnostic {
+                error: dot(&f, &f).sqrt() / total,
+                ..diagnose(mu, 1.0 / self.scales[c], &uc, &rc)
+            }
+        };
+        (0..self.scales.len()).map(one).collect()
+    }
+}
+
+/// The errors of `r`, everything recomputed. For many evaluations keep a [`Truth`].
+pub fn errors(problem: &ContactProblem, r: &[f64]) -> Errors {
+    let mut u = vec![0.0; problem.q.len()];
+    if r.len() != u.len() {
+        return Errors::WORST;
+    }
+    Truth::new(problem).evaluate(r, &mut u)
+}
+
+#[derive(Default)]
+struct Sums {
+    f: f64,
+    r: f64,
+    u: f64,
+    q: f64,
+    gap: f64,
+}
+
+impl Sums {
+    #[inline(always)]
+    fn add<const D: usize>(&mut self, mu: f64, r: &Vector<D>, u: &Vector<D>, q: &Vector<D>) {
+        let f = natural_map(mu, 1.0, u, r);
+        self.f += dot(&f, &f);
+        self.r += dot(r, r);
+        self.u += dot(u, u);
+        self.q += dot(q, q);
+        self.gap += bipotential_gap(mu, u, r).abs();
+    }
+
+    fn error(&self) -> f64 {
+        let size = self.q.max(self.r).max(self.u);
+        if size > 0.0 { (self.f / size).sqrt() } else { 0.0 }
+    }
+
+    fn gap(&self) -> f64 {
+        let size = (self.u * self.r).sqrt();
+        if size > 0.0 { self.gap / size } else { 0.0 }
+    }
+}
+
+#[inline(always)]
+fn scaled<const D: usize>(v: &Vector<D>, factor: f64) -> Vector<D> {
+    let mut s = *v;
+    for x in &mut s {
+        *x *= factor;
+    }
+    s
+}
+
+/// A power of two near `1 / size`, so that scaling rounds nothing.
+fn reciprocal(size: f64) -> f64 {
+    if !(size > 0.0) {
+        return 1.0;
+    }
+    (-size.log2().round()).clamp(-1000.0, 1000.0).exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::delassus::Delassus;
+    use crate::law::Status;
+    use faer::Mat;
+
+    fn sliding_block(factor_w: f64, factor_q: f64) -> (ContactProblem, Vec<f64>) {
+        let w = Mat::from_fn(3, 3, |i, j| if i == j { 2.0 * factor_w } else { 0.0 });
+        let q = vec![3.0 * factor_q, 4.0 * factor_q, -2.0 * factor_q];
+        let p = ContactProblem::new(Delassus::Dense(w), q, vec![0.5], Cone::Spatial).unwrap();
+        let s = factor_q / factor_w;
+        (p, vec![-0.3 * s, -0.4 * s, s])
+    }
+
+    #[test]
+    fn exact_solution_has_no_error_in_any_unit() {
+        for factor_w in [1e-150, 1e-6, 1.0, 1e6, 1e150] {
+            for factor_q in [1e-150, 1.0, 1e150] {
+                if factor_q / factor_w > 1e200 || factor_w / factor_q > 1e200 {
+                    continue;
+                }
+                let (p, r) = sliding_block(factor_w, factor_q);
+                let e = errors(&p, &r);
+                assert!(e.worst() < 1e-14 && e.gap < 1e-14, "{factor_w} {factor_q} {e:?}");
+                let half: Vec<f64> = r.iter().map(|x| 0.5 * x).collect();
+                let wrong = errors(&p, &half).scale_free;
+                let (p1, r1) = sliding_block(1.0, 1.0);
+                let half: Vec<f64> = r1.iter().map(|x| 0.5 * x).collect();
+                assert!((wrong - errors(&p1, &half).scale_free).abs() < 1e-14);
+                assert!(wrong > 0.1);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_a_number_is_never_small() {
+        let (p, mut r) = sliding_block(1.0, 1.0);
+        r[1] = f64::NAN;
+        assert_eq!(errors(&p, &r), Errors::WORST);
+        assert_eq!(errors(&p, &[0.0]), Errors::WORST);
+    }
+
+    #[test]
+    fn diagnostics_share_out_the_error() {
+        let (p, r) = sliding_block(1.0, 1.0);
+        let truth = Truth::new(&p);
+        let mut u = vec![0.0; 3];
+        let half: Vec<f64> = r.iter().map(|x| 0.5 * x).collect();
+        let e = truth.evaluate(&half, &mut u);
+        let d = truth.diagnose(&half, &u);
+        assert!(d[0].penetration > 0.9 && d[0].error > 0.5 * e.scale_free && d[0].error < 2.0 * e.scale_free);
+        truth.evaluate(&r, &mut u);
+        assert_eq!(truth.diagnose(&r, &u)[0].status, Status::Slip);
+    }
+}

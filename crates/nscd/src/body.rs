@@ -1,0 +1,272 @@
+//! The linear system of one body: equations, matrix, factor and condensed surface.
+
+use contact_bipotential::CompliancePart;
+use fe_core::{ElementWorkspace, MassMatrix, Solid, SymmetricPattern};
+
+use crate::error::{NscdError, StepFailure};
+use crate::linear::{Condensed, Factor, LowerPattern};
+use crate::ordering::{Graph, elimination_order};
+use crate::report::Counters;
+use crate::scheme::Weights;
+
+/// Relative residual of a linear solve that needs no refinement.
+const GOOD_SOLVE: f64 = 1e-10;
+/// Relative residual of a linear solve after refinement that is still believed.
+const LAST_SOLVE: f64 = 1e-6;
+
+/// One connected body and its factorized tangent, which may be older than the state: the
+/// residual is always exact, so an old tangent costs iterations and never accuracy.
+#[derive(Debug)]
+pub(crate) struct BodySystem {
+    index: usize,
+    /// Global dof of each equation.
+    pub(crate) dofs: Vec<u32>,
+    pattern: SymmetricPattern,
+    values: Vec<f64>,
+    factor: Factor,
+    /// First equation of a contact candidate.
+    first_candidate: usize,
+    condensed: Option<CompliancePart>,
+    surface: Option<Condensed>,
+    /// Weights of the factor in use; `None` when there is none.
+    factored: Option<Weights>,
+    contraction: Option<f64>,
+    largest_stiffness: f64,
+    forward: Vec<f64>,
+    rhs: Vec<f64>,
+    solution: Vec<f64>,
+}
+
+/// What the matrix is made of besides the element tangents.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct MatrixParts<'a> {
+    pub(crate) mass: &'a MassMatrix,
+    pub(crate) mass_damping: f64,
+    pub(crate) initial_stiffness: Option<(&'a ElementWorkspace, f64)>,
+}
+
+impl BodySystem {
+    /// Orders and analyses the body `index`; `candidate` tells the nodes that may touch.
+    pub(crate) fn new(
+        solid: &Solid,
+        graph: Graph<'_>,
+        index: usize,
+        fixed: &[bool],
+        candidate: &[bool],
+    ) -> Result<Self, NscdError> {
+        let dim = solid.dim();
+        let free = |&n: &u32| (0..dim).any(|c| !fixed[dim * n as usize + c]);
+        let nodes: Vec<u32> = solid.bodies()[index].iter().copied().filter(free).collect();
+        let (last, interior): (Vec<u32>, Vec<u32>) = nodes.iter().partition(|&&n| candidate[n as usize]);
+        let order = elimination_order(graph, &interior, &last);
+        let free_dofs = |nodes: &[u32]| -> Vec<u32> {
+            let all = nodes.iter().flat_map(|&n| (0..dim).map(move |c| (dim * n as usize + c) as u32));
+            all.filter(|&d| !fixed[d as usize]).collect()
+        };
+        let first_candidate = free_dofs(&order[..interior.len()]).len();
+        let dofs = free_dofs(&order);
+        let mut equation = vec![u32::MAX; solid.dof_count()];
+        for (k, &d) in dofs.iter().enumerate() {
+            equation[d as usize] = k as u32;
+        }
+        let pattern = SymmetricPattern::new(solid, &equation, dofs.len())?;
+        let lower = LowerPattern { pointers: pattern.column_pointers(), rows: pattern.row_indices() };
+        let n = dofs.len();
+        Ok(Self {
+            index,
+            factor: Factor::new(lower)?,
+            values: vec![0.0; pattern.row_indices().len()],
+            dofs,
+            pattern,
+            first_candidate,
+            condensed: None,
+            surface: None,
+            factored: None,
+            contraction: None,
+            largest_stiffness: 0.0,
+            forward: vec![0.0; n],
+            rhs: vec![0.0; n],
+            solution: vec![0.0; n],
+        })
+    }
+
+    /// Contraction of the residual per iteration that the factor in use was last seen to give.
+    pub(crate) fn contraction(&self) -> Option<f64> {
+        self.contraction
+    }
+
+    /// Remembers an observed contraction.
+    pub(crate) fn learn_contraction(&mut self, rate: f64) {
+        self.contraction = Some(rate);
+    }
+
+    /// Compliance of the candidate surface, if it was asked for since the last factorization.
+    pub(crate) fn condensed(&self) -> Option<&CompliancePart> {
+        self.condensed.as_ref()
+    }
+
+    /// Whether the factor in use belongs to these weights.
+    pub(crate) fn is_factored_for(&self, weights: Weights) -> bool {
+        self.factored == Some(weights)
+    }
+
+    /// Estimated seconds of a factorization with condensation on a usual core.
+    pub(crate) fn factor_cost(&self) -> f64 {
+        let m = (self.dofs.len() - self.first_candidate) as f64;
+        (self.factor.flops + m.powi(3)) / 8e9 + self.values.len() as f64 * 4e-9
+    }
+
+    /// Estimated seconds of one forward and backward substitution.
+    pub(crate) fn solve_cost(&self) -> f64 {
+        self.factor.fill() as f64 * 2.5e-9 + self.values.len() as f64 * 1e-9
+    }
+
+    /// Largest diagonal entry of the stiffness part of the matrix in use [N/m].
+    pub(crate) fn largest_stiffness(&self) -> f64 {
+        self.largest_stiffness
+    }
+
+    /// Largest diagonal entry of the matrix in use [N/m].
+    pub(crate) fn largest_diagonal(&self) -> f64 {
+        self.pattern.column_pointers().iter().take(self.dofs.len()).map(|&k| self.values[k]).fold(0.0, f64::max)
+    }
+
+    /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
+    /// definite by adding to its diagonal, as little as needed in powers of ten, and counted.
+    pub(crate) fn refactor(
+        &mut self,
+        work: &ElementWorkspace,
+        parts: MatrixParts<'_>,
+        weights: Weights,
+        counters: &mut Counters,
+    ) -> Result<(), StepFailure> {
+        self.factored = None;
+        self.contraction = None;
+        self.condensed = None;
+        self.surface = None;
+        self.pattern.gather_tangent(work, weights.stiffness, &mut self.values);
+        self.largest_stiffness = self.largest_diagonal();
+        if let Some((initial, factor)) = parts.initial_stiffness {
+            let mut damping = vec![0.0; self.values.len()];
+            self.pattern.gather_tangent(initial, weights.damping * factor, &mut damping);
+            self.values.iter_mut().zip(&damping).for_each(|(a, d)| *a += d);
+        }
+        let mass = weights.mass + weights.damping * parts.mass_damping;
+        if mass != 0.0 {
+            self.pattern.add_mass(parts.mass, mass, &mut self.values);
+        }
+        self.factorize_shifted(counters)?;
+        self.factored = Some(weights);
+        Ok(())
+    }
+
+    fn factorize_shifted(&mut self, counters: &mut Counters) -> Result<(), StepFailure> {
+        let Self { pattern, factor, values, .. } = self;
+        let lower = LowerPattern { pointers: pattern.column_pointers(), rows: pattern.row_indices() };
+        let diagonal: Vec<usize> = lower.pointers[..lower.pointers.len() - 1].to_vec();
+        let scale = diagonal.iter().map(|&k| values[k].abs()).fold(0.0, f64::max);
+        let mut shift = 1e-4;
+        loop {
+            counters.factorizations += 1;
+            let Err(bad) = factor.factorize(lower, values) else { return Ok(()) };
+            counters.indefinite_tangents += u64::from(shift == 1e-4);
+            if shift > 10.0 {
+                let node = self.dofs[bad.equation] as usize;
+                return Err(StepFailure::Indefinite { body: self.index, node });
+            }
+            diagonal.iter().for_each(|&k| values[k] += shift * scale);
+            shift *= 10.0;
+        }
+    }
+
+    /// The compliance of the candidate surface, from the trailing block of the factor.
+    pub(crate) fn compliance(&mut self, total_dofs: usize, counters: &mut Counters) -> Result<(), StepFailure> {
+        if self.condensed.is_some() {
+            return Ok(());
+        }
+        counters.condensations += 1;
+        let (surface, c) = self.factor.condense(self.first_candidate);
+        let mut offset = vec![u32::MAX; total_dofs];
+        for (k, &d) in self.dofs[self.first_candidate..].iter().enumerate() {
+            offset[d as usize] = k as u32;
+        }
+        self.surface = Some(surface);
+        self.condensed = Some(CompliancePart::new(offset, c)?);
+        Ok(())
+    }
+
+    /// First half of a solve: `y = L^-1 b` for the residual `b` (global).
+    pub(crate) fn forward(&mut self, b: &[f64]) {
+        for (k, &d) in self.dofs.iter().enumerate() {
+            self.rhs[k] = b[d as usize];
+        }
+        self.forward.copy_from_slice(&self.rhs);
+        self.factor.forward(&mut self.forward);
+    }
+
+    /// Correction of the candidate dofs that the residual alone would give, into global `z`.
+    pub(crate) fn free_surface(&mut self, z: &mut [f64]) {
+        let Some(surface) = &self.surface else { return };
+        let first = self.first_candidate;
+        surface.free_solution(&self.forward[first..], &mut self.solution[first..]);
+        for (k, &d) in self.dofs.iter().enumerate().skip(first) {
+            z[d as usize] = self.solution[k];
+        }
+    }
+
+    /// Second half: adds the contact force `f = H^T r` (global), substitutes back and writes the
+    /// correction into global `z`. The residual of the solve is recomputed and refined if needed.
+    pub(crate) fn backward(
+        &mut self,
+        f: Option<&[f64]>,
+        z: &mut [f64],
+        counters: &mut Counters,
+    ) -> Result<(), StepFailure> {
+        let first = self.first_candidate;
+        let mut scale = norm(&self.rhs);
+        if let (Some(f), Some(surface)) = (f, &self.surface) {
+            let on_surface: Vec<f64> = self.dofs[first..].iter().map(|&d| f[d as usize]).collect();
+            surface.add_force(&on_surface, &mut self.forward[first..]);
+            self.rhs[first..].iter_mut().zip(&on_surface).for_each(|(b, f)| *b += f);
+            scale += norm(&on_surface);
+        }
+        self.solution.copy_from_slice(&self.forward);
+        self.factor.backward(&mut self.solution);
+        counters.linear_solves += 1;
+        self.check_solution(scale, counters)?;
+        for (k, &d) in self.dofs.iter().enumerate() {
+            z[d as usize] = self.solution[k];
+        }
+        Ok(())
+    }
+
+    /// `scale` is the size of the forces whose balance the right hand side is.
+    fn check_solution(&mut self, scale: f64, counters: &mut Counters) -> Result<(), StepFailure> {
+        if scale == 0.0 {
+            return Ok(());
+        }
+        let lower = LowerPattern { pointers: self.pattern.column_pointers(), rows: self.pattern.row_indices() };
+        let mut worst = f64::INFINITY;
+        for attempt in 0..3 {
+            let mut left = self.rhs.clone();
+            lower.subtract_product(&self.values, &self.solution, &mut left);
+            let residual = norm(&left) / scale;
+            if residual <= GOOD_SOLVE || (attempt == 2 && residual <= LAST_SOLVE) {
+                return Ok(());
+            }
+            worst = residual;
+            if !residual.is_finite() {
+                break;
+            }
+            counters.refinements += 1;
+            self.factor.forward(&mut left);
+            self.factor.backward(&mut left);
+            self.solution.iter_mut().zip(&left).for_each(|(x, dx)| *x += dx);
+        }
+        Err(StepFailure::Linear { body: self.index, residual: worst })
+    }
+}
+
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|v| v * v).sum::<f64>().sqrt()
+}

@@ -1,0 +1,276 @@
+//! The contact side of a step: candidates, local variable, local problem, error of the law.
+
+use contact_bipotential::cone::project;
+use contact_bipotential::{Contact, ContactMap, ContactProblem, Cone, Delassus, SolveSettings, solve};
+use faer::Mat;
+
+use crate::body::BodySystem;
+use crate::error::StepFailure;
+use crate::model::Model;
+use crate::report::Counters;
+use crate::scheme::ContactLevel;
+use crate::state::State;
+use crate::trial::{StepFrame, Trial};
+
+/// What the contact solve remembers from iteration to iteration and from step to step. Nothing
+/// here decides a result: forces are a warm start, scales only weigh an error.
+#[derive(Debug)]
+pub(crate) struct ContactMemory {
+    /// Force of each slave node of each interface, `cone` entries each [N].
+    forces: Vec<Vec<f64>>,
+    /// `1 / trace W_cc` of each slave node of each interface [N/m].
+    stiffness: Vec<Vec<f64>>,
+    /// Entries of a local vector.
+    pub(crate) cone: usize,
+}
+
+impl ContactMemory {
+    pub(crate) fn new(model: &Model) -> Self {
+        let cone = cone_of(model).dim();
+        let sized = |k: usize| model.interfaces.iter().map(|i| vec![0.0; k * i.slave.len()]).collect();
+        Self { forces: sized(cone), stiffness: sized(1), cone }
+    }
+
+    /// The remembered force of every contact of a map.
+    pub(crate) fn recall(&self, map: &ContactMap) -> Vec<f64> {
+        let cone = self.cone;
+        map.contacts
+            .iter()
+            .flat_map(|c| &self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)])
+            .copied()
+            .collect()
+    }
+
+    /// Starts a step from the forces of the last accepted one.
+    pub(crate) fn restore(&mut self, now: &State) {
+        let cone = self.cone;
+        self.clear();
+        for c in &now.contacts {
+            for (i, &axis) in local_axes(cone).iter().enumerate() {
+                self.forces[c.interface][cone * c.slave_index + i] = c.force[axis];
+            }
+        }
+    }
+
+    /// No contact has a force.
+    pub(crate) fn clear(&mut self) {
+        self.forces.iter_mut().for_each(|f| f.fill(0.0));
+    }
+
+    /// Remembers the forces of the given contacts; all others have none.
+    pub(crate) fn store(&mut self, map: &ContactMap, r: &[f64]) {
+        let cone = self.cone;
+        self.clear();
+        for (c, force) in map.contacts.iter().zip(r.chunks_exact(cone)) {
+            self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)].copy_from_slice(force);
+        }
+    }
+}
+
+/// The local law: one row a contact where nothing rubs.
+pub(crate) fn cone_of(model: &Model) -> Cone {
+    if model.interfaces.iter().all(|i| i.mu == 0.0) {
+        Cone::Frictionless
+    } else if model.solid.dim() == 2 {
+        Cone::Planar
+    } else {
+        Cone::Spatial
+    }
+}
+
+/// Local variable of every contact of `map` at an iterate [m]: slip of the step and gap, or at the
+/// velocity level the end velocity times the displacement that a unit of it stands for.
+pub(crate) fn local_variable(frame: &StepFrame<'_>, map: &ContactMap, cone: usize, u: &[f64], v: &[f64]) -> Vec<f64> {
+    match frame.model.scheme.contact {
+        ContactLevel::Position => {
+            let mut x = relative_displacement(frame, map, u);
+            for (c, x) in map.contacts.iter().zip(x.chunks_exact_mut(cone)) {
+                x[cone - 1] = c.gap;
+            }
+            x
+        }
+        ContactLevel::Velocity => {
+            let rate = frame.model.scheme.velocity_rate(frame.dt);
+            let start = relative_velocity(frame, map, &frame.now.v);
+            let mut x = relative_velocity(frame, map, v);
+            for (k, c) in map.contacts.iter().enumerate() {
+                let n = cone * k + cone - 1;
+                x[n] += frame.model.interfaces[c.interface].restitution * start[n].min(0.0);
+            }
+            x.iter_mut().for_each(|x| *x /= rate);
+            x
+        }
+    }
+}
+
+/// Displacement of the slave relative to the master in the step, in local frames [m].
+pub(crate) fn relative_displacement(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> Vec<f64> {
+    let du: Vec<f64> = u.iter().zip(&frame.now.u).map(|(a, b)| a - b).collect();
+    relative(map, &du, 1.0)
+}
+
+fn relative_velocity(frame: &StepFrame<'_>, map: &ContactMap, v: &[f64]) -> Vec<f64> {
+    relative(map, v, 1.0 / frame.dt)
+}
+
+/// `H w` minus `obstacle` times the obstacle's displacement in the step.
+fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
+    let mut x = vec![0.0; map.row_count()];
+    let mut offset = x.clone();
+    map.apply(w, &mut x);
+    map.slip_offsets(&mut offset);
+    x.iter_mut().zip(&offset).for_each(|(x, o)| *x += obstacle * o);
+    x
+}
+
+/// Which of (t1, t2, n) the entries of a local vector are.
+pub(crate) fn local_axes(cone: usize) -> &'static [usize] {
+    match cone {
+        1 => &[2],
+        2 => &[0, 2],
+        _ => &[0, 1, 2],
+    }
+}
+
+/// The contacts of a map that are kept.
+pub(crate) fn filtered(map: &ContactMap, keep: impl Fn(usize, &Contact) -> bool) -> ContactMap {
+    let kept = map.contacts.iter().enumerate().filter(|(k, c)| keep(*k, c)).map(|(_, c)| *c);
+    ContactMap::new(kept.collect(), map.dim(), map.cone())
+}
+
+/// Error of the contact law at an iterate.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct LawError {
+    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|` [N], `rho = 1/trace W_cc`.
+    pub(crate) largest: f64,
+    /// Index of that contact in the map.
+    pub(crate) worst: usize,
+}
+
+impl ContactMemory {
+    /// Error of the contact law with exact gaps; `fallback` is the stiffness [N/m] of contacts
+    /// that never entered a contact problem.
+    pub(crate) fn law_error(&self, model: &Model, trial: &Trial, fallback: f64) -> LawError {
+        let cone = self.cone;
+        let mut error = LawError::default();
+        for (k, c) in trial.map.contacts.iter().enumerate() {
+            let (r, x) = (&trial.r[cone * k..cone * (k + 1)], &trial.x[cone * k..cone * (k + 1)]);
+            let rho = match self.stiffness[c.interface][c.slave_index] {
+                0.0 => fallback,
+                known => known,
+            };
+            let mu = model.interfaces[c.interface].mu;
+            let size = natural_map(mu, rho, r, x);
+            if size > error.largest {
+                error = LawError { largest: size, worst: k };
+            }
+        }
+        error
+    }
+}
+
+/// Norm of `r - Proj_K(r - rho (x + mu |x_t| n))`, normal last.
+fn natural_map(mu: f64, rho: f64, r: &[f64], x: &[f64]) -> f64 {
+    let last = r.len() - 1;
+    let slip = x[..last].iter().map(|t| t * t).sum::<f64>().sqrt();
+    // A missing tangent is a zero one.
+    let place = 2 - last;
+    let (mut force, mut trial) = ([0.0; 3], [0.0; 3]);
+    for i in 0..=last {
+        force[place + i] = r[i];
+        trial[place + i] = r[i] - rho * x[i];
+    }
+    trial[2] -= rho * mu * slip;
+    let projected = project::<3>(mu, &trial);
+    (0..3).map(|i| (force[i] - projected[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Which candidates enter the contact problem: those with a force, and those that the correction
+/// brings near. The others are checked with their exact gap in the next iteration.
+fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64]) -> Vec<bool> {
+    if model.scheme.contact == ContactLevel::Velocity {
+        return vec![true; map.contacts.len()];
+    }
+    let near = |k: usize| {
+        let interface = &model.interfaces[map.contacts[k].interface];
+        free[cone * k + cone - 1] <= 0.25 * interface.search_distance
+    };
+    (0..map.contacts.len()).map(|k| near(k) || r[cone * k + cone - 1] > 0.0).collect()
+}
+
+/// Solves the contact problem of one iteration: the forces that, together with the residual, make
+/// the linearised bodies obey the contact law. Returns the contact force `H^T r`.
+pub(crate) fn solve_contacts(
+    frame: &StepFrame<'_>,
+    memory: &mut ContactMemory,
+    bodies: &mut [BodySystem],
+    trial: &mut Trial,
+    counters: &mut Counters,
+) -> Result<Vec<f64>, StepFailure> {
+    let (model, cone) = (frame.model, memory.cone);
+    let dofs = model.dof_count();
+    let mut z = vec![0.0; dofs];
+    let mut parts = Vec::with_capacity(bodies.len());
+    for body in bodies.iter_mut() {
+        body.compliance(dofs, counters)?;
+        body.free_surface(&mut z);
+    }
+    parts.extend(bodies.iter().filter_map(BodySystem::condensed));
+    let mut free = vec![0.0; trial.x.len()];
+    trial.map.apply(&z, &mut free);
+    free.iter_mut().zip(&trial.x).for_each(|(f, x)| *f += x);
+    let keep = enters(model, &trial.map, cone, &free, &trial.r);
+    let map = filtered(&trial.map, |k, _| keep[k]);
+    let select = |all: &[f64]| -> Vec<f64> {
+        all.chunks_exact(cone).zip(&keep).filter(|(_, k)| **k).flat_map(|(c, _)| c.iter().copied()).collect()
+    };
+    let mut r = select(&trial.r);
+    let mut w = Mat::zeros(r.len(), r.len());
+    map.delassus(&parts, &mut w);
+    memory.remember_stiffness(&map, &w);
+    let mu = map.contacts.iter().map(|c| model.interfaces[c.interface].mu).collect();
+    let problem = ContactProblem { w: Delassus::Dense(w), q: select(&free), mu, cone: map.cone() };
+    let settings = SolveSettings {
+        tolerance: 0.01 * model.settings.contact_tolerance,
+        max_iterations: model.settings.contact_iterations,
+        ..SolveSettings::default()
+    };
+    let outcome = solve(&problem, &mut r, &settings);
+    if std::env::var("DUMP").is_ok() && outcome.error_scale_free > 1e-9 { println!("W {:?} q {:?} r {:?} {:?}", problem.w, problem.q, r, outcome); }
+    counters.contact_solves += 1;
+    counters.contact_iterations += outcome.iterations as u64;
+    counters.contacts_max = counters.contacts_max.max(map.contacts.len() as u64);
+    if outcome.error.max(outcome.error_scale_free) > model.settings.contact_tolerance {
+        let errors = outcome.diagnostics.iter().enumerate();
+        let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map_or(0, |(k, _)| k);
+        return Err(StepFailure::Contact {
+            contacts: map.contacts.len(),
+            error: outcome.error_scale_free,
+            method: format!("{:?}", outcome.method),
+            contact: describe(model, &map, worst),
+        });
+    }
+    let mut force = vec![0.0; dofs];
+    map.apply_transpose(&r, &mut force);
+    memory.store(&map, &r);
+    Ok(force)
+}
+
+impl ContactMemory {
+    fn remember_stiffness(&mut self, map: &ContactMap, w: &Mat<f64>) {
+        for (k, c) in map.contacts.iter().enumerate() {
+            let trace: f64 = (self.cone * k..self.cone * (k + 1)).map(|i| w[(i, i)]).sum();
+            if trace > 0.0 {
+                self.stiffness[c.interface][c.slave_index] = 1.0 / trace;
+            }
+        }
+    }
+}
+
+/// Names a contact for an error message.
+pub(crate) fn describe(model: &Model, map: &ContactMap, index: usize) -> String {
+    map.contacts.get(index).map_or_else(
+        || "no contact".to_owned(),
+        |c| format!("node {} of interface \"{}\" (gap {:e} m)", c.slave, model.interfaces[c.interface].name, c.gap),
+    )
+}

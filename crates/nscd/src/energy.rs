@@ -1,0 +1,202 @@
+//! The end of a step: energy audit, forces of interfaces and supports, new state.
+
+use crate::contact::{local_axes, relative_displacement};
+use crate::monitor::Check;
+use crate::report::{EnergyTerms, Resultant, StepReport};
+use crate::scheme::{ContactLevel, Inertia};
+use crate::state::{ContactState, ContactStatus, State};
+use crate::stepper::Stepper;
+use crate::trial::{StepFrame, Trial};
+
+impl Stepper<'_> {
+    /// Turns a converged iterate into the next state and its report.
+    pub(crate) fn accept(&self, frame: &StepFrame<'_>, trial: Trial, check: &Check) -> (State, StepReport) {
+        let model = frame.model;
+        let support_force: Vec<f64> = (0..trial.u.len())
+            .map(|i| if self.fixed[i] { -(trial.balance[i] + trial.contact_force[i]) } else { 0.0 })
+            .collect();
+        let cone = self.memory.cone;
+        let moved = relative_displacement(frame, &trial.map, &trial.u);
+        let contacts = contact_states(frame, &trial, &moved, cone);
+        let mut energy = bulk_terms(frame, &trial, &support_force);
+        contact_terms(frame, &trial, &moved, &contacts, cone, &mut energy);
+        let positions = model.positions(&trial.u);
+        let report = StepReport {
+            time: frame.end(),
+            dt: frame.dt,
+            newton_iterations: check.iteration,
+            residual: check.relative_residual(),
+            contact_error: check.contact_error,
+            contacts_closed: contacts.iter().filter(|c| c.status != ContactStatus::Open).count(),
+            penetration: contacts.iter().map(|c| -c.gap).fold(0.0, f64::max),
+            energy,
+            interfaces: interface_resultants(model.interfaces.len(), &contacts, &positions, model.solid.dim()),
+            supports: self.support_resultants(&support_force, &positions),
+        };
+        let state = State {
+            time: frame.end(),
+            kinetic_energy: model.kinetic_energy(&trial.v),
+            u: trial.u,
+            v: trial.v,
+            internal_force: trial.internal_force,
+            external_force: frame.external_force.clone(),
+            strain_energy: trial.strain_energy,
+            support_force,
+            contact_force: trial.contact_force,
+            contacts,
+            last_dt: Some(frame.dt),
+            u_before: frame.now.u.clone(),
+        };
+        (state, report)
+    }
+
+    /// Force and moment of each support; a dof named twice counts for the later one.
+    fn support_resultants(&self, force: &[f64], positions: &[f64]) -> Vec<Resultant> {
+        let dim = self.model().solid.dim();
+        let mut owner = vec![usize::MAX; force.len()];
+        for (s, support) in self.model().supports.iter().enumerate() {
+            for &node in &support.nodes {
+                (0..dim).filter(|&c| support.components[c]).for_each(|c| owner[dim * node as usize + c] = s);
+            }
+        }
+        let mut sums = vec![Resultant::default(); self.model().supports.len()];
+        for node in 0..force.len() / dim {
+            for c in 0..dim {
+                let dof = dim * node + c;
+                if let Some(sum) = sums.get_mut(owner[dof]) {
+                    let mut f = [0.0; 3];
+                    f[c] = force[dof];
+                    sum.add(f, point(positions, node, dim));
+                }
+            }
+        }
+        sums
+    }
+}
+
+impl Resultant {
+    fn add(&mut self, f: [f64; 3], at: [f64; 3]) {
+        let m = [at[1] * f[2] - at[2] * f[1], at[2] * f[0] - at[0] * f[2], at[0] * f[1] - at[1] * f[0]];
+        for i in 0..3 {
+            self.force[i] += f[i];
+            self.moment[i] += m[i];
+        }
+    }
+}
+
+fn point(positions: &[f64], node: usize, dim: usize) -> [f64; 3] {
+    let mut at = [0.0; 3];
+    at[..dim].copy_from_slice(&positions[dim * node..dim * (node + 1)]);
+    at
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Everything but contact. With `du` the displacement of the step, the force balance times `du`
+/// gives the energy equation of the step; each term is evaluated by its own formula.
+fn bulk_terms(frame: &StepFrame<'_>, trial: &Trial, support_force: &[f64]) -> EnergyTerms {
+    let (model, now) = (frame.model, frame.now);
+    let xi = frame.weights.stiffness;
+    let du: Vec<f64> = trial.u.iter().zip(&now.u).map(|(a, b)| a - b).collect();
+    let used = |start: &[f64], end: &[f64]| (1.0 - xi) * dot(&du, start) + xi * dot(&du, end);
+    let strain = trial.strain_energy - now.strain_energy;
+    let mut terms = EnergyTerms {
+        strain,
+        load_work: used(&now.external_force, &frame.external_force) + dot(&du, support_force),
+        damping: used(&frame.start_damping, &trial.damping_force),
+        bulk_error: used(&now.internal_force, &trial.internal_force) - strain,
+        ..EnergyTerms::default()
+    };
+    if model.scheme.inertia == Inertia::Dynamic {
+        let jump: Vec<f64> = trial.v.iter().zip(&now.v).map(|(a, b)| a - b).collect();
+        let mut momentum = vec![0.0; jump.len()];
+        model.mass.times(&jump, &mut momentum);
+        terms.kinetic = model.kinetic_energy(&trial.v) - now.kinetic_energy;
+        terms.scheme_error = (0..du.len())
+            .map(|i| (du[i] / frame.dt - 0.5 * (now.v[i] + trial.v[i])) * momentum[i])
+            .sum();
+    }
+    terms
+}
+
+/// Friction, impact, curved gaps, and the work of moving obstacles.
+fn contact_terms(
+    frame: &StepFrame<'_>,
+    trial: &Trial,
+    moved: &[f64],
+    contacts: &[ContactState],
+    cone: usize,
+    terms: &mut EnergyTerms,
+) {
+    for (k, c) in trial.map.contacts.iter().enumerate() {
+        let r = &trial.r[cone * k..cone * (k + 1)];
+        let dx = &moved[cone * k..cone * (k + 1)];
+        let (tangential, normal) = (dot(&r[..cone - 1], &dx[..cone - 1]), r[cone - 1] * dx[cone - 1]);
+        let global = global_force(&contacts[k]);
+        terms.load_work += dot(&global, &c.obstacle_motion);
+        terms.friction -= tangential;
+        match frame.model.scheme.contact {
+            ContactLevel::Velocity => terms.impact -= normal,
+            ContactLevel::Position => {
+                let start = gap_before(frame.now, &contacts[k]).unwrap_or(c.gap - dx[cone - 1]);
+                let closing = r[cone - 1] * (start - c.gap);
+                terms.impact += closing;
+                terms.gap_error -= normal + closing;
+            }
+        }
+    }
+}
+
+/// Gap of the same slave node at the end of the last step, if it was a candidate then.
+fn gap_before(now: &State, contact: &ContactState) -> Option<f64> {
+    let key = (contact.interface, contact.slave_index);
+    let found = now.contacts.binary_search_by_key(&key, |c| (c.interface, c.slave_index));
+    found.ok().map(|i| now.contacts[i].gap)
+}
+
+fn global_force(contact: &ContactState) -> [f64; 3] {
+    std::array::from_fn(|i| (0..3).map(|k| contact.force[k] * contact.frame[k][i]).sum())
+}
+
+fn contact_states(frame: &StepFrame<'_>, trial: &Trial, moved: &[f64], cone: usize) -> Vec<ContactState> {
+    let force_scale = trial.r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+    let contacts = trial.map.contacts.iter().enumerate();
+    contacts
+        .map(|(k, c)| {
+            let (mut force, mut motion) = ([0.0; 3], [0.0; 3]);
+            for (i, &axis) in local_axes(cone).iter().enumerate() {
+                force[axis] = trial.r[cone * k + i];
+                motion[axis] = moved[cone * k + i];
+            }
+            let mu = frame.model.interfaces[c.interface].mu;
+            let on_cone = force[0].hypot(force[1]) >= mu * force[2] * (1.0 - 1e-9);
+            let status = if force[2] <= 1e-12 * force_scale {
+                ContactStatus::Open
+            } else if on_cone {
+                ContactStatus::Slip
+            } else {
+                ContactStatus::Stick
+            };
+            ContactState {
+                interface: c.interface,
+                slave_index: c.slave_index,
+                node: c.slave,
+                gap: c.gap,
+                slip: [motion[0], motion[1]],
+                force,
+                frame: c.frame,
+                status,
+            }
+        })
+        .collect()
+}
+
+fn interface_resultants(count: usize, contacts: &[ContactState], positions: &[f64], dim: usize) -> Vec<Resultant> {
+    let mut sums = vec![Resultant::default(); count];
+    for c in contacts {
+        sums[c.interface].add(global_force(c), point(positions, c.node as usize, dim));
+    }
+    sums
+}

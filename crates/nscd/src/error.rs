@@ -1,0 +1,117 @@
+//! What can go wrong below a scene, with the place and what to try.
+
+/// Why a model was refused or a run stopped.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum NscdError {
+    /// The sparse matrix of a body could not be analysed.
+    #[error("the matrix of a body with {unknowns} unknowns could not be analysed: {reason}; try a coarser mesh")]
+    Symbolic {
+        /// Unknowns of the body.
+        unknowns: usize,
+        /// What the factorization said.
+        reason: String,
+    },
+    /// A setting outside its bounds.
+    #[error("{name} = {value} is not possible: {allowed}")]
+    Setting {
+        /// Name of the setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A quasi-static body that nothing holds.
+    #[error("velocity-level contact needs inertia; use position-level contact for a quasi-static run")]
+    VelocityWithoutInertia,
+    /// Element or mesh trouble outside a step.
+    #[error(transparent)]
+    Element(#[from] fe_core::FeError),
+    /// An interface that does not fit the mesh.
+    #[error(transparent)]
+    Interface(#[from] contact_bipotential::GeometryError),
+    /// The smallest step failed too.
+    #[error("stopped at t = {time:e} s: no step down to {smallest:e} s converges. Last reason: {failure}")]
+    Stopped {
+        /// Time reached [s].
+        time: f64,
+        /// Smallest step tried [s].
+        smallest: f64,
+        /// Why the last try failed.
+        failure: StepFailure,
+    },
+    /// The observer could not do its part, e.g. write a file.
+    #[error("stopped at t = {time:e} s by the output: {source}")]
+    Observer {
+        /// Time reached [s].
+        time: f64,
+        /// What the observer said.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
+/// Why one step was rejected: which element, contact or residual, and what to try.
+#[derive(Debug, Clone, thiserror::Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// An element turned inside out and smaller corrections did not help.
+    #[error("{0}; try smaller steps or a finer mesh there")]
+    Element(String),
+    /// Newton's iteration did not reach the tolerance.
+    #[error(
+        "equilibrium not reached in {iterations} iterations: residual {residual:e} N at node {node} (allowed {allowed:e} N), \
+         contact error {contact_error:e} at {contact}; try smaller steps"
+    )]
+    Newton {
+        /// Iterations done.
+        iterations: usize,
+        /// Largest residual force [N].
+        residual: f64,
+        /// Where it is.
+        node: usize,
+        /// What would have been accepted [N].
+        allowed: f64,
+        /// Relative error of the contact law.
+        contact_error: f64,
+        /// Worst contact.
+        contact: String,
+    },
+    /// The contact problem of an iteration was not solved.
+    #[error("the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; try smaller steps")]
+    Contact {
+        /// Contacts in the problem.
+        contacts: usize,
+        /// Recomputed relative error.
+        error: f64,
+        /// Method that ended last.
+        method: String,
+        /// Worst contact.
+        contact: String,
+    },
+    /// The tangent stayed indefinite whatever was added to it.
+    #[error("the tangent of body {body} is not positive definite near node {node}; the body may buckle or lose ellipticity there: try smaller steps")]
+    Indefinite {
+        /// Index of the body.
+        body: usize,
+        /// Node of the failing pivot.
+        node: usize,
+    },
+    /// The factorization does not solve its own system.
+    #[error("a linear solve left the relative residual {residual:e} in body {body}; the matrix is close to singular: is the body held?")]
+    Linear {
+        /// Index of the body.
+        body: usize,
+        /// Relative residual after refinement.
+        residual: f64,
+    },
+    /// The compliance of a surface does not fit the mesh.
+    #[error(transparent)]
+    Surface(#[from] contact_bipotential::GeometryError),
+    /// Something became infinite or not a number.
+    #[error("a force at node {node} is not finite; try smaller steps")]
+    NotFinite {
+        /// First such node.
+        node: usize,
+    },
+}

@@ -1,0 +1,33 @@
+//! Non-smooth time stepping of deformable bodies in contact.
+//!
+//! A [`Model`] holds bodies, supports, loads, interfaces and a [`Scheme`]; a [`Stepper`] advances a
+//! [`State`] by one step; [`march`] runs a whole span with step control and tells an [`Observer`].
+//!
+//! The scheme is the first-order theta/xi rule of non-smooth contact dynamics [Feng2007, eq. 38-41]
+//! with the contact law at the position level (the papers) or at the velocity level (Moreau-Jean),
+//! or without inertia. Every step ends with an energy audit whose terms all have their own formula.
+
+mod body;
+mod contact;
+mod energy;
+mod error;
+mod linear;
+mod march;
+mod model;
+mod monitor;
+mod ordering;
+mod report;
+mod scheme;
+mod settings;
+mod state;
+mod stepper;
+mod trial;
+
+pub use error::{NscdError, StepFailure};
+pub use march::{Observer, Span, Totals, march};
+pub use model::{Load, Model, Rayleigh};
+pub use report::{Clock, Counters, EnergyTerms, NoClock, Phase, Phases, Rejection, Resultant, StepReport};
+pub use scheme::{ContactLevel, Inertia, Scheme};
+pub use settings::Settings;
+pub use state::{ContactState, ContactStatus, State};
+pub use stepper::Stepper;

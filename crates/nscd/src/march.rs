@@ -1,0 +1,160 @@
+//! From start to end: step control, observers, totals.
+
+use crate::error::{NscdError, StepFailure};
+use crate::model::Model;
+use crate::report::{EnergyTerms, Rejection, StepReport};
+use crate::state::State;
+use crate::stepper::Stepper;
+
+/// Is told about every accepted and rejected step.
+pub trait Observer {
+    /// A step was accepted.
+    ///
+    /// # Errors
+    /// Anything that should end the run, e.g. a full disk.
+    fn accepted(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        report: &StepReport,
+        totals: &Totals,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>>;
+
+    /// A step was rejected and will be cut.
+    fn rejected(&mut self, _rejection: &Rejection) {}
+}
+
+/// Sums and extremes over the accepted steps.
+#[derive(Debug, Clone, Default)]
+pub struct Totals {
+    /// Energy at the start [J].
+    pub initial_energy: f64,
+    /// Energy terms summed over the steps.
+    pub energy: EnergyTerms,
+    /// Deepest penetration at the end of a step [m].
+    pub max_penetration: f64,
+    /// Largest relative error of the contact law in an accepted step.
+    pub max_contact_error: f64,
+    /// Largest relative residual in an accepted step.
+    pub max_residual: f64,
+    /// Rejected steps.
+    pub rejections: Vec<Rejection>,
+}
+
+impl Totals {
+    fn add(&mut self, report: &StepReport) {
+        self.energy.add(&report.energy);
+        self.max_penetration = self.max_penetration.max(report.penetration);
+        self.max_contact_error = self.max_contact_error.max(report.contact_error);
+        self.max_residual = self.max_residual.max(report.residual);
+    }
+}
+
+/// Span of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    /// End time [s].
+    pub end: f64,
+    /// Nominal step [s].
+    pub dt: f64,
+}
+
+/// Runs from `state` to the end of the span. A failed step is cut in half, with its reason kept,
+/// and grown again; below the smallest step the run stops. `state` is always the last accepted one
+/// and `totals` what led there, so that nothing computed is lost.
+///
+/// # Errors
+/// [`NscdError::Stopped`] with the last reason, [`NscdError::Observer`].
+pub fn march(
+    stepper: &mut Stepper<'_>,
+    state: &mut State,
+    span: Span,
+    totals: &mut Totals,
+    observer: &mut dyn Observer,
+) -> Result<(), NscdError> {
+    totals.initial_energy = state.kinetic_energy + state.strain_energy;
+    let mut control = Control::new(stepper.model(), span);
+    while let Some(dt) = control.next(state.time) {
+        match stepper.step(state, dt) {
+            Ok((next, report)) => {
+                *state = next;
+                control.accepted(state);
+                stepper.counters.steps += 1;
+                totals.add(&report);
+                observer
+                    .accepted(stepper, state, &report, totals)
+                    .map_err(|source| NscdError::Observer { time: state.time, source })?;
+            }
+            Err(reason) => {
+                stepper.counters.rejected_steps += 1;
+                let rejection = Rejection { time: state.time, dt, reason };
+                observer.rejected(&rejection);
+                control.rejected(state.time, dt, &rejection.reason)?;
+                totals.rejections.push(rejection);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Chooses the steps: the nominal grid, never across a breakpoint, halved after failures.
+#[derive(Debug)]
+struct Control {
+    span: Span,
+    /// End times that no step crosses, increasing; the nominal grid between them.
+    targets: Vec<f64>,
+    /// Current step as a fraction `2^-level` of the nominal one.
+    level: u32,
+    smallest: f64,
+    successes: usize,
+    growth_after: usize,
+}
+
+impl Control {
+    fn new(model: &Model, span: Span) -> Self {
+        let mut targets: Vec<f64> =
+            model.breakpoints().into_iter().filter(|t| *t > 0.0 && *t < span.end * (1.0 - 1e-12)).collect();
+        targets.push(span.end);
+        Self {
+            span,
+            targets,
+            level: 0,
+            smallest: span.dt * model.settings.smallest_step,
+            successes: 0,
+            growth_after: model.settings.growth_after,
+        }
+    }
+
+    /// Length of the next step from time `t`, `None` at the end. The steps to the next target are
+    /// made equal, so that round-off never leaves a sliver.
+    fn next(&self, t: f64) -> Option<f64> {
+        let slack = 1e-9 * self.span.dt * 0.5_f64.powi(self.level as i32);
+        let target = *self.targets.iter().find(|&&target| target > t + slack)?;
+        let wish = self.span.dt * 0.5_f64.powi(self.level as i32);
+        let count = ((target - t) / wish - 1e-6).ceil().max(1.0);
+        Some((target - t) / count)
+    }
+
+    fn accepted(&mut self, state: &mut State) {
+        // The grid is exact: `t + dt` that lands on a target up to round-off is that target.
+        if let Some(&target) = self.targets.iter().find(|&&target| (target - state.time).abs() < 1e-9 * self.span.dt) {
+            state.time = target;
+        }
+        self.successes += 1;
+        if self.level > 0 && self.successes >= self.growth_after {
+            self.level -= 1;
+            self.successes = 0;
+        }
+    }
+
+    fn rejected(&mut self, time: f64, dt: f64, reason: &StepFailure) -> Result<(), NscdError> {
+        self.successes = 0;
+        while self.span.dt * 0.5_f64.powi(self.level as i32) >= 0.75 * dt {
+            self.level += 1;
+        }
+        if dt * 0.5 < self.smallest {
+            return Err(NscdError::Stopped { time, smallest: dt, failure: reason.clone() });
+        }
+        Ok(())
+    }
+}

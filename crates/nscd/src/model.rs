@@ -1,0 +1,144 @@
+//! What does not change during a run.
+
+use contact_bipotential::{Interface, Master};
+use fe_core::{Dirichlet, MassMatrix, Solid, Table};
+
+use crate::scheme::{Inertia, Scheme};
+use crate::settings::Settings;
+
+/// A dead load: a fixed nodal force vector times a function of time.
+#[derive(Debug, Clone)]
+pub struct Load {
+    /// Nodal forces at factor 1 [N], flat.
+    pub forces: Vec<f64>,
+    /// Factor over time [-].
+    pub factor: Table,
+}
+
+/// Rayleigh damping `A = mass M + stiffness K_0`, with the stiffness of the undeformed bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Rayleigh {
+    /// Factor of the mass matrix [1/s].
+    pub mass: f64,
+    /// Factor of the initial stiffness [s].
+    pub stiffness: f64,
+}
+
+impl Rayleigh {
+    /// No damping at all.
+    pub fn is_none(&self) -> bool {
+        self.mass == 0.0 && self.stiffness == 0.0
+    }
+}
+
+/// Bodies, supports, loads, interfaces and the scheme: everything that never changes in a run.
+#[derive(Debug)]
+pub struct Model {
+    /// Deformable bodies.
+    pub solid: Solid,
+    /// Mass (kept in a quasi-static run too, for the kinetic energy that it neglects).
+    pub mass: MassMatrix,
+    /// Damping.
+    pub damping: Rayleigh,
+    /// Supports and driven boundaries; on a node named twice the later one wins.
+    pub supports: Vec<Dirichlet>,
+    /// Loads.
+    pub loads: Vec<Load>,
+    /// Contact interfaces.
+    pub interfaces: Vec<Interface>,
+    /// Time scheme.
+    pub scheme: Scheme,
+    /// Tolerances and limits.
+    pub settings: Settings,
+}
+
+impl Model {
+    /// Number of unknowns before supports, `dim * nodes`.
+    pub fn dof_count(&self) -> usize {
+        self.solid.dof_count()
+    }
+
+    /// Times at which a motion or load changes its form: no step crosses one.
+    pub fn breakpoints(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = Vec::new();
+        for support in &self.supports {
+            times.extend(support.motion.breakpoints());
+        }
+        for load in &self.loads {
+            times.extend(load.factor.breakpoints());
+        }
+        for interface in &self.interfaces {
+            if let Master::Obstacle(obstacle) = &interface.master {
+                times.extend(obstacle.motion().breakpoints());
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// Positions of the nodes at displacement `u`, flat [m].
+    pub fn positions(&self, u: &[f64]) -> Vec<f64> {
+        let dim = self.solid.dim();
+        let points = self.solid.mesh().points.iter();
+        points.zip(u.chunks_exact(dim)).flat_map(|(x, u)| (0..dim).map(move |c| x[c] + u[c])).collect()
+    }
+
+    /// Kinetic energy [J]; an equilibrium path has none.
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        match self.scheme.inertia {
+            Inertia::Dynamic => 0.5 * self.mass.quadratic(v),
+            Inertia::QuasiStatic => 0.0,
+        }
+    }
+
+    /// Overwrites `f` with the external forces at time `t` [N].
+    pub(crate) fn external_force(&self, t: f64, f: &mut [f64]) {
+        f.fill(0.0);
+        for load in &self.loads {
+            let factor = load.factor.value(t);
+            for (fi, li) in f.iter_mut().zip(&load.forces) {
+                *fi += factor * li;
+            }
+        }
+    }
+
+    /// Overwrites the prescribed entries of `u` with their values at time `t` [m].
+    pub(crate) fn prescribe(&self, t: f64, u: &mut [f64]) {
+        let dim = self.solid.dim();
+        for support in &self.supports {
+            for &node in &support.nodes {
+                let at = support.motion.displacement(self.solid.mesh().points[node as usize], t);
+                for c in (0..dim).filter(|&c| support.components[c]) {
+                    u[dim * node as usize + c] = at[c];
+                }
+            }
+        }
+    }
+
+    /// Which nodes may come into contact.
+    pub(crate) fn candidates(&self) -> Vec<bool> {
+        let mut candidate = vec![false; self.solid.node_count()];
+        for interface in &self.interfaces {
+            interface.slave.iter().for_each(|&n| candidate[n as usize] = true);
+            if let Master::Surface(surface) = &interface.master {
+                surface.nodes.iter().for_each(|&n| candidate[n as usize] = true);
+            }
+        }
+        candidate
+    }
+
+    /// Which dofs are prescribed.
+    pub(crate) fn prescribed(&self) -> Vec<bool> {
+        let dim = self.solid.dim();
+        let mut fixed = vec![false; self.dof_count()];
+        for support in &self.supports {
+            for &node in &support.nodes {
+                for c in (0..dim).filter(|&c| support.components[c]) {
+                    fixed[dim * node as usize + c] = true;
+                }
+            }
+        }
+        fixed
+    }
+}

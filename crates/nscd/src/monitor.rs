@@ -1,0 +1,170 @@
+//! Has the iteration arrived, and is the tangent still worth keeping?
+
+use crate::body::BodySystem;
+use crate::contact::{LawError, describe};
+use crate::error::StepFailure;
+use crate::model::Model;
+use crate::stepper::Stepper;
+use crate::trial::{StepFrame, Trial};
+
+/// Round-off of a sum of the size of its terms, with room for the number of terms.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+
+/// Balance and contact law at an iterate.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Check {
+    pub(crate) iteration: usize,
+    pub(crate) converged: bool,
+    /// Largest residual force on a free dof [N], its node, and what is allowed.
+    pub(crate) residual: f64,
+    node: usize,
+    allowed: f64,
+    /// Largest force in play [N].
+    scale: f64,
+    law: LawError,
+    /// Error of the contact law relative to the largest contact force.
+    pub(crate) contact_error: f64,
+}
+
+impl Check {
+    /// Residual relative to the largest force in play.
+    pub(crate) fn relative_residual(&self) -> f64 {
+        if self.scale > 0.0 { self.residual / self.scale } else { 0.0 }
+    }
+
+    pub(crate) fn failure(&self, frame: &StepFrame<'_>, trial: &Trial) -> StepFailure {
+        StepFailure::Newton {
+            iterations: self.iteration,
+            residual: self.residual,
+            node: self.node,
+            allowed: self.allowed,
+            contact_error: self.contact_error,
+            contact: describe(frame.model, &trial.map, self.law.worst),
+        }
+    }
+}
+
+/// Follows the residual of each body through the iterations of a step.
+#[derive(Debug)]
+pub(crate) struct Monitor {
+    iteration: usize,
+    norms: Vec<f64>,
+    allowed: f64,
+    /// Estimated seconds of one iteration.
+    iteration_cost: f64,
+    extent: f64,
+    element_size: f64,
+}
+
+impl Monitor {
+    pub(crate) fn new(bodies: &[BodySystem], model: &Model) -> Self {
+        let elements: usize = model.solid.blocks().iter().map(|b| b.element_count()).sum();
+        let solves: f64 = bodies.iter().map(BodySystem::solve_cost).sum();
+        let extent = model.solid.mesh().points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        Self {
+            iteration: 0,
+            norms: vec![0.0; bodies.len()],
+            allowed: 0.0,
+            iteration_cost: elements as f64 * 1e-6 + solves,
+            extent,
+            element_size: largest_element(model),
+        }
+    }
+
+    /// Checks the iterate and learns the contraction of every body.
+    pub(crate) fn check(
+        &mut self,
+        stepper: &mut Stepper<'_>,
+        frame: &StepFrame<'_>,
+        trial: &Trial,
+    ) -> Result<Check, StepFailure> {
+        let settings = &frame.model.settings;
+        let stiffness = stepper.bodies.iter().map(BodySystem::largest_diagonal).fold(0.0, f64::max);
+        let travel = largest(&trial.u) + frame.dt * largest(&trial.v);
+        let scale = [&trial.internal_force, &frame.external_force, &trial.contact_force, &trial.damping_force]
+            .into_iter()
+            .map(|f| largest(f))
+            .fold(0.0, f64::max);
+        // Strains carry the round-off of numbers of size one, displacements that of their own size.
+        let elastic = stepper.bodies.iter().map(BodySystem::largest_stiffness).fold(0.0, f64::max);
+        let floor = ROUND_OFF * (stiffness * travel + elastic * self.element_size);
+        self.allowed = (settings.newton_tolerance * scale).max(floor);
+        let (residual, node) = self.residual(stepper, trial)?;
+        let law = stepper.memory.law_error(frame.model, trial, stiffness);
+        let force = largest(&trial.r);
+        let floor = ROUND_OFF * stiffness * (self.extent + travel);
+        let contact_error = law.largest / force.max(floor / settings.contact_tolerance).max(f64::MIN_POSITIVE);
+        let check = Check {
+            iteration: self.iteration,
+            converged: trial.pending.is_none()
+                && residual <= self.allowed
+                && contact_error <= settings.contact_tolerance,
+            residual,
+            node,
+            allowed: self.allowed,
+            scale,
+            law,
+            contact_error,
+        };
+        if std::env::var("TRACE").is_ok() { println!("  {} it {} norms {:.1e} {:.1e} allowed {:.1e} rates {:?} law {:.1e}", frame.now.time, self.iteration, self.norms[0], self.norms[self.norms.len()-1], self.allowed, stepper.bodies.iter().map(|b| b.contraction()).collect::<Vec<_>>(), check.contact_error); }
+        self.iteration += 1;
+        Ok(check)
+    }
+
+    /// Largest residual and its node; the contraction of every body goes to the body.
+    fn residual(&mut self, stepper: &mut Stepper<'_>, trial: &Trial) -> Result<(f64, usize), StepFailure> {
+        let dim = stepper.model().solid.dim();
+        let mut worst = (0.0, 0);
+        for (body, last) in stepper.bodies.iter_mut().zip(&mut self.norms) {
+            let mut norm = 0.0_f64;
+            for &d in &body.dofs {
+                let size = (trial.balance[d as usize] + trial.contact_force[d as usize]).abs();
+                if !size.is_finite() {
+                    return Err(StepFailure::NotFinite { node: d as usize / dim });
+                }
+                if size > norm {
+                    norm = size;
+                    if size > worst.0 {
+                        worst = (size, d as usize / dim);
+                    }
+                }
+            }
+            if self.iteration > 0 && *last > self.allowed {
+                body.learn_contraction(norm / *last);
+            }
+            *last = norm;
+        }
+        Ok(worst)
+    }
+
+    /// Whether a new factorization of the body pays: it is missing, or the iterations that the old
+    /// one still needs cost more than a new one with its own.
+    pub(crate) fn is_stale(&self, index: usize, body: &BodySystem, frame: &StepFrame<'_>) -> bool {
+        if !body.is_factored_for(frame.weights) {
+            return true;
+        }
+        let (Some(rate), true) = (body.contraction(), self.norms[index] > self.allowed) else { return false };
+        if rate > 0.7 {
+            return true;
+        }
+        let decades = (self.allowed.max(f64::MIN_POSITIVE) / self.norms[index]).ln();
+        let remaining = decades / rate.max(1e-12).ln();
+        let fresh = 3.0 + frame.model.settings.lag * body.factor_cost() / self.iteration_cost;
+        remaining > fresh
+    }
+}
+
+/// Longest edge of a bounding box of an element [m].
+fn largest_element(model: &Model) -> f64 {
+    let points = &model.solid.mesh().points;
+    let cells = model.solid.blocks().iter().flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
+    let extent = |cell: &[u32], c: usize| {
+        let along = cell.iter().map(|&n| points[n as usize][c]);
+        along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
+    };
+    cells.flat_map(|cell| (0..3).map(move |c| extent(cell, c))).fold(0.0, f64::max)
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |m, v| m.max(v.abs()))
+}

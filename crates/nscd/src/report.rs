@@ -1,0 +1,184 @@
+//! What a run tells about itself: counters, phases, energies, forces.
+
+/// Work done, for proving what was skipped.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected_steps: u64,
+    /// Corrections of the displacement.
+    pub newton_iterations: u64,
+    /// Evaluations of the internal force alone.
+    pub force_evaluations: u64,
+    /// Evaluations of the element tangents.
+    pub tangent_evaluations: u64,
+    /// Numeric factorizations, one a body.
+    pub factorizations: u64,
+    /// Tangents that were not positive definite and were shifted.
+    pub indefinite_tangents: u64,
+    /// Condensations of a body onto its contact surface.
+    pub condensations: u64,
+    /// Forward and backward substitutions, one a body.
+    pub linear_solves: u64,
+    /// Iterative refinements of a linear solve.
+    pub refinements: u64,
+    /// Contact detections.
+    pub detections: u64,
+    /// Contact problems solved.
+    pub contact_solves: u64,
+    /// Iterations of the contact solver.
+    pub contact_iterations: u64,
+    /// Largest number of contacts in one contact problem.
+    pub contacts_max: u64,
+}
+
+/// Part of the work that a time is booked on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    /// Element forces and tangents.
+    Elements,
+    /// Gathering and factorizing matrices.
+    Factorization,
+    /// Compliance of the contact surfaces and the operator W.
+    Condensation,
+    /// Forward and backward substitutions.
+    Substitution,
+    /// Contact search.
+    Detection,
+    /// Contact solve.
+    Contact,
+}
+
+impl Phase {
+    /// All phases in the order of [`Phases`].
+    pub const ALL: [(Phase, &'static str); 6] = [
+        (Phase::Elements, "elements"),
+        (Phase::Factorization, "factorization"),
+        (Phase::Condensation, "condensation"),
+        (Phase::Substitution, "substitution"),
+        (Phase::Detection, "detection"),
+        (Phase::Contact, "contact"),
+    ];
+}
+
+/// Seconds spent in each phase, indexed like [`Phase::ALL`].
+pub type Phases = [f64; 6];
+
+/// Reads a clock; the libraries themselves know no time.
+pub trait Clock {
+    /// Seconds since any fixed moment.
+    fn seconds(&self) -> f64;
+}
+
+/// A clock that stands still: for tests and for callers that need no times.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoClock;
+
+impl Clock for NoClock {
+    fn seconds(&self) -> f64 {
+        0.0
+    }
+}
+
+/// Energy terms of one step or summed over a run [J]. Each is computed from its own formula, none
+/// as the remainder of the others, so that [`EnergyTerms::imbalance`] proves something.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EnergyTerms {
+    /// Change of the kinetic energy `(v1 . M v1 - v0 . M v0)/2`.
+    pub kinetic: f64,
+    /// Change of the strain energy.
+    pub strain: f64,
+    /// Change of the adhesive energy of the bonds.
+    pub adhesive: f64,
+    /// Work of loads, supports and moving obstacles.
+    pub load_work: f64,
+    /// Dissipation of friction, `-r_t . dx_t`.
+    pub friction: f64,
+    /// Dissipation of breaking and healing bonds.
+    pub bond: f64,
+    /// Dissipation of damping.
+    pub damping: f64,
+    /// Loss of closing contacts, `r_n (g_0 - g_1)`, or `-r_n dx_n` at the velocity level.
+    pub impact: f64,
+    /// Loss by the integration of the bulk, `du . (F_int used) - dW`.
+    pub bulk_error: f64,
+    /// Loss by the time scheme, `(du/dt - (v0+v1)/2) . M (v1-v0)`, that is `(theta-1/2) |dv|_M^2`.
+    pub scheme_error: f64,
+    /// Loss because gaps are curved: `-r_n (n . dX - (g_1 - g_0))`.
+    pub gap_error: f64,
+}
+
+impl EnergyTerms {
+    /// All that the discretisation loses (positive) or gains (negative) [J].
+    pub fn integration_error(&self) -> f64 {
+        self.bulk_error + self.scheme_error + self.gap_error
+    }
+
+    /// What the balance leaves open [J]: zero but for the tolerance of Newton's iteration.
+    pub fn imbalance(&self) -> f64 {
+        let stored = self.kinetic + self.strain + self.adhesive;
+        let lost = self.friction + self.bond + self.damping + self.impact + self.integration_error();
+        stored + lost - self.load_work
+    }
+
+    /// Adds the terms of another step.
+    pub fn add(&mut self, other: &Self) {
+        self.kinetic += other.kinetic;
+        self.strain += other.strain;
+        self.adhesive += other.adhesive;
+        self.load_work += other.load_work;
+        self.friction += other.friction;
+        self.bond += other.bond;
+        self.damping += other.damping;
+        self.impact += other.impact;
+        self.bulk_error += other.bulk_error;
+        self.scheme_error += other.scheme_error;
+        self.gap_error += other.gap_error;
+    }
+}
+
+/// Force and moment about the origin that act on the bodies.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Resultant {
+    /// Force [N].
+    pub force: [f64; 3],
+    /// Moment about the origin at the end positions [N m].
+    pub moment: [f64; 3],
+}
+
+/// One accepted step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct StepReport {
+    /// End of the step [s].
+    pub time: f64,
+    /// Length of the step [s].
+    pub dt: f64,
+    /// Corrections made.
+    pub newton_iterations: usize,
+    /// Residual force over the largest force in play, recomputed at the end state.
+    pub residual: f64,
+    /// Error of the contact law relative to the largest contact force, recomputed at the end state.
+    pub contact_error: f64,
+    /// Contacts with a force or a closed gap.
+    pub contacts_closed: usize,
+    /// Deepest penetration [m].
+    pub penetration: f64,
+    /// Energy terms of the step.
+    pub energy: EnergyTerms,
+    /// Forces of the interfaces on their slave bodies, in the order of the model.
+    pub interfaces: Vec<Resultant>,
+    /// Forces of the supports on the bodies, in the order of the model.
+    pub supports: Vec<Resultant>,
+}
+
+/// A rejected step.
+#[derive(Debug, Clone)]
+pub struct Rejection {
+    /// Start of the step [s].
+    pub time: f64,
+    /// Its length [s].
+    pub dt: f64,
+    /// Why it was rejected.
+    pub reason: crate::error::StepFailure,
+}

@@ -1,0 +1,255 @@
+//! From a checked scene to a model: the place where concrete laws and shapes get their names.
+
+use contact_bipotential::{Interface, Master, Obstacle, Shape};
+use fe_core::{
+    Block, BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface,
+    Table, solid_block,
+};
+use nscd::{ContactLevel, Inertia, Load, Model, Rayleigh, Scheme, Settings, Span};
+
+use crate::spec::{self, BuiltLaw, LoadedScene, Scene, SceneError};
+
+/// A scene ready to run.
+#[derive(Debug)]
+pub struct Built {
+    /// Everything that does not change.
+    pub model: Model,
+    /// Initial velocity, flat \[m/s\].
+    pub velocity: Vec<f64>,
+    /// Duration and step.
+    pub span: Span,
+    /// Node of each probe, in the order of the scene.
+    pub probes: Vec<u32>,
+    /// Body of each mesh block, in the order of the scene.
+    pub body_of_block: Vec<i32>,
+}
+
+/// Builds the model of a scene.
+///
+/// # Errors
+/// [`SceneError`] at the value of the scene that cannot be built: a parameter outside of its bound, a mesh that is
+/// inverted, an interface that makes no sense.
+pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
+    let scene = &loaded.scene;
+    let (mesh, first_node) = mesh(loaded)?;
+    let blocks = blocks(loaded, &mesh)?;
+    let body_of_block = (0..mesh.blocks.len() as i32).collect();
+    let solid = Solid::new(mesh, blocks).map_err(|e| loaded.refuse("bodies", e.to_string()))?;
+    let mass = match scene.mass {
+        spec::MassKind::Consistent => solid.consistent_mass(),
+        spec::MassKind::Lumped => solid.lumped_mass(),
+    };
+    let dim = solid.dim();
+    let mut velocity = vec![0.0; solid.dof_count()];
+    for (k, body) in scene.bodies.values().enumerate() {
+        for node in first_node[k]..first_node[k + 1] {
+            velocity[dim * node..dim * (node + 1)].copy_from_slice(&body.velocity[..dim]);
+        }
+    }
+    let model = Model {
+        supports: supports(loaded, solid.mesh())?,
+        loads: loads(loaded, &solid, &mass)?,
+        interfaces: interfaces(loaded, solid.mesh())?,
+        damping: Rayleigh { mass: scene.damping.mass, stiffness: scene.damping.stiffness },
+        scheme: scheme(scene),
+        settings: settings(scene),
+        mass,
+        solid,
+    };
+    let probes = probes(scene, model.solid.mesh(), &first_node);
+    let span = Span { end: scene.time.end, dt: scene.time.dt };
+    Ok(Built { model, velocity, span, probes, body_of_block })
+}
+
+/// The meshes of all bodies in one, and where the nodes of each body begin.
+fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
+    let scene = &loaded.scene;
+    let mut all = Mesh::default();
+    let mut first_node = vec![0];
+    for (name, body) in &scene.bodies {
+        let spec::Mesh::Box { min, max, cells, grading, element } = &body.mesh;
+        let kind = match element {
+            spec::Element::Hex8 => CellKind::Hex8,
+            spec::Element::Tet4 => CellKind::Tet4,
+        };
+        let cells = cells.map(|c| c * scene.refine);
+        let part = BoxMesh { min: *min, max: *max, cells, grading: *grading, kind };
+        let part = part.generate(name).map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
+        all.append(name, part);
+        first_node.push(all.points.len());
+    }
+    Ok((all, first_node))
+}
+
+fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, SceneError> {
+    let scene = &loaded.scene;
+    let mut blocks = Vec::new();
+    for (index, body) in scene.bodies.values().enumerate() {
+        let path = format!("materials.{}", body.material);
+        let Some(material) = scene.materials.get(&body.material) else {
+            return Err(loaded.refuse(&path, "does not exist"));
+        };
+        let block = block(mesh, index, material).map_err(|reason| loaded.refuse(&path, reason))?;
+        blocks.push(block);
+    }
+    Ok(blocks)
+}
+
+fn block(mesh: &Mesh, index: usize, material: &spec::Material) -> Result<Box<dyn Block>, String> {
+    let density = material.density;
+    let built = match material.law.build().map_err(|e| e.message)? {
+        BuiltLaw::SaintVenantKirchhoff(law) => solid_block(mesh, index, law, density),
+        BuiltLaw::ThreeE(law) => solid_block(mesh, index, law, density),
+        BuiltLaw::BlatzKo(law) => solid_block(mesh, index, law, density),
+        BuiltLaw::NeoHookean(law) => solid_block(mesh, index, law, density),
+    };
+    built.map_err(|e| e.to_string())
+}
+
+fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneError> {
+    let scene = &loaded.scene;
+    let one = |(name, given): (&String, &spec::Prescribed)| {
+        let path = format!("motions.{name}");
+        let nodes = mesh.node_set(&given.nodes).map_err(|e| loaded.refuse(&format!("{path}.nodes"), e.to_string()))?;
+        let motion = motion(&given.motion).map_err(|e| loaded.refuse(&format!("{path}.motion"), e.to_string()))?;
+        Ok(Dirichlet { nodes: nodes.to_vec(), components: given.mask(), motion, name: name.clone() })
+    };
+    scene.motions.iter().map(one).collect()
+}
+
+fn table(table: &spec::Table) -> Result<Table, FeError> {
+    let interpolation = match table.interpolation() {
+        spec::Interpolation::Linear => fe_core::Interpolation::Linear,
+        spec::Interpolation::Smooth => fe_core::Interpolation::Smooth,
+    };
+    Table::new(table.points(), interpolation)
+}
+
+fn motion(given: &spec::Motion) -> Result<Motion, FeError> {
+    let spec::Motion::Move { translation: [x, y, z], rotation } = given else { return Ok(Motion::still()) };
+    let rotation = match rotation {
+        Some(r) => Some(Rotation::new(r.point, r.axis, table(&r.angle)?)?),
+        None => None,
+    };
+    Ok(Motion { translation: [table(x)?, table(y)?, table(z)?], rotation })
+}
+
+fn loads(loaded: &LoadedScene, solid: &Solid, mass: &fe_core::MassMatrix) -> Result<Vec<Load>, SceneError> {
+    let mesh = solid.mesh();
+    let one = |(name, load): (&String, &spec::Load)| {
+        let refuse = |e: String| loaded.refuse(&format!("loads.{name}"), e);
+        match load {
+            spec::Load::Gravity(acceleration) => {
+                let factor = Table::constant(1.0);
+                let gravity = Gravity { acceleration: *acceleration, factor: factor.clone() };
+                let forces = gravity.nodal_forces(mass).map_err(|e| refuse(e.to_string()))?;
+                Ok(Load { forces, factor })
+            }
+            spec::Load::Traction { facets, traction, factor } => {
+                let facets = mesh.facet_set(facets).map_err(|e| refuse(e.to_string()))?.to_vec();
+                let factor = table(factor).map_err(|e| refuse(e.to_string()))?;
+                let load = DeadTraction { facets, traction: *traction, factor: factor.clone() };
+                let forces = load.nodal_forces(mesh).map_err(|e| refuse(e.to_string()))?;
+                Ok(Load { forces, factor })
+            }
+        }
+    };
+    loaded.scene.loads.iter().map(one).collect()
+}
+
+fn interfaces(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Interface>, SceneError> {
+    let one = |(name, given): (&String, &spec::Interface)| {
+        let built = interface(mesh, name, given).map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e))?;
+        built
+            .validate(mesh.points.len(), mesh.dim)
+            .map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e.to_string()))?;
+        Ok(built)
+    };
+    loaded.scene.interfaces.iter().map(one).collect()
+}
+
+fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interface, String> {
+    let text = |e: FeError| e.to_string();
+    let surface = |set: &str| {
+        let facets = mesh.facet_set(set).map_err(|e| e.to_string())?;
+        Surface::new(facets.to_vec()).map_err(text)
+    };
+    let slave = surface(&given.slave)?;
+    let area = slave.tributary_areas(&mesh.points);
+    let mut reach = facet_size(&slave, mesh);
+    let master = match &given.master {
+        spec::Master::Facets(set) => {
+            let master = surface(set)?;
+            reach = reach.max(facet_size(&master, mesh));
+            Master::Surface(master)
+        }
+        rigid => {
+            let obstacle = Obstacle::new(shape(rigid), motion(&given.motion).map_err(text)?);
+            Master::Obstacle(obstacle.map_err(|e| e.to_string())?)
+        }
+    };
+    let mut interface = Interface::new(name, slave.nodes.clone(), area, master, reach);
+    interface.mu = given.mu;
+    interface.restitution = given.restitution;
+    Ok(interface)
+}
+
+/// The rigid shape of a master; a deformable one has none and never comes here.
+fn shape(master: &spec::Master) -> Shape {
+    match *master {
+        spec::Master::Sphere { center, radius } => Shape::Sphere { center, radius },
+        spec::Master::Cylinder { point, axis, radius } => Shape::Cylinder { point, axis, radius },
+        spec::Master::Cone { apex, axis, semi_apex_angle } => {
+            Shape::Cone { apex, axis, semi_apex_angle: semi_apex_angle.to_radians() }
+        }
+        spec::Master::Plane { point, normal } => Shape::Plane { point, normal },
+        spec::Master::Facets(_) => Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] },
+    }
+}
+
+/// Longest distance between two nodes of a facet \[m\]: how far contacts are looked for.
+fn facet_size(surface: &Surface, mesh: &Mesh) -> f64 {
+    let distance = |a: u32, b: u32| {
+        let (a, b) = (mesh.points[a as usize], mesh.points[b as usize]);
+        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+    };
+    let pairs = surface.facets.iter().flat_map(|f| f.nodes().iter().flat_map(|a| f.nodes().iter().map(|b| (*a, *b))));
+    pairs.map(|(a, b)| distance(a, b)).fold(0.0, f64::max)
+}
+
+fn scheme(scene: &Scene) -> Scheme {
+    Scheme {
+        theta: scene.time.theta,
+        xi: scene.time.xi,
+        contact: match scene.time.contact {
+            spec::ContactLevel::Position => ContactLevel::Position,
+            spec::ContactLevel::Velocity => ContactLevel::Velocity,
+        },
+        inertia: match scene.time.inertia {
+            spec::Inertia::Dynamic => Inertia::Dynamic,
+            spec::Inertia::QuasiStatic => Inertia::QuasiStatic,
+        },
+    }
+}
+
+fn settings(scene: &Scene) -> Settings {
+    let (given, default) = (&scene.solver, Settings::default());
+    Settings {
+        newton_tolerance: given.newton_tolerance.unwrap_or(default.newton_tolerance),
+        newton_iterations: given.max_newton.unwrap_or(default.newton_iterations),
+        contact_tolerance: given.contact_tolerance.unwrap_or(default.contact_tolerance),
+        contact_iterations: given.max_contact_iterations.unwrap_or(default.contact_iterations),
+        smallest_step: scene.time.min_dt.map_or(default.smallest_step, |dt| dt / scene.time.dt),
+        ..default
+    }
+}
+
+fn probes(scene: &Scene, mesh: &Mesh, first_node: &[usize]) -> Vec<u32> {
+    let nearest = |probe: &spec::Probe| {
+        let body = scene.bodies.get_index_of(&probe.body).unwrap_or(0);
+        let distance = |n: &usize| (0..3).map(|i| (mesh.points[*n][i] - probe.node[i]).powi(2)).sum::<f64>();
+        let nodes = first_node[body]..first_node[body + 1];
+        nodes.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0) as u32
+    };
+    scene.output.probes.values().map(nearest).collect()
+}

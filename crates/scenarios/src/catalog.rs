@@ -1,0 +1,82 @@
+//! The scenes that come with the program, and the way from a name or a file to a scene.
+
+use std::path::{Path, PathBuf};
+
+use crate::spec::{LoadedScene, Override, SceneError, near_names, parse};
+
+/// A built-in scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Name on the command line.
+    pub name: &'static str,
+    /// RON text with comments.
+    pub text: &'static str,
+}
+
+/// All built-in scenes, in the order of the list. A new scene is one file in `scenes/` and one line here.
+pub const SCENES: &[Entry] = &[
+    Entry {
+        name: "impact",
+        text: include_str!("../scenes/impact.ron"),
+    },
+    Entry {
+        name: "bar-impact",
+        text: include_str!("../scenes/bar-impact.ron"),
+    },
+    Entry {
+        name: "press-twist",
+        text: include_str!("../scenes/press-twist.ron"),
+    },
+    Entry {
+        name: "twist-dry",
+        text: include_str!("../scenes/twist-dry.ron"),
+    },
+];
+
+/// Text of a built-in scene or of a file, with the name that errors use.
+///
+/// # Errors
+/// [`SceneError::Unknown`] for a word that is neither, [`SceneError::Read`] for a file that cannot be read.
+pub fn text(name_or_file: &str) -> Result<(String, String), SceneError> {
+    if let Some(entry) = SCENES.iter().find(|entry| entry.name == name_or_file) {
+        return Ok((format!("{}.ron", entry.name), entry.text.to_owned()));
+    }
+    let path = Path::new(name_or_file);
+    let meant_as_file =
+        path.extension().is_some() || path.components().count() > 1 || path.is_file();
+    if !meant_as_file {
+        let names = SCENES.iter().map(|entry| entry.name);
+        let near = near_names(name_or_file, names.clone());
+        return Err(SceneError::Unknown {
+            name: name_or_file.to_owned(),
+            near: near
+                .first()
+                .map(|name| format!("; did you mean `{name}`?"))
+                .unwrap_or_default(),
+            known: names.collect::<Vec<_>>().join(", "),
+        });
+    }
+    let read = std::fs::read_to_string(path);
+    let text = read.map_err(|source| SceneError::Read {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok((name_or_file.to_owned(), text))
+}
+
+/// Reads and checks a built-in scene or a file.
+///
+/// # Errors
+/// See [`SceneError`].
+pub fn load(name_or_file: &str, sets: &[Override]) -> Result<LoadedScene, SceneError> {
+    let (name, text) = text(name_or_file)?;
+    parse(&name, &text, sets)
+}
+
+/// Folder for the results when none is given: `out/<scene>`.
+pub fn default_folder(name_or_file: &str) -> PathBuf {
+    let stem = Path::new(name_or_file)
+        .file_stem()
+        .unwrap_or(name_or_file.as_ref());
+    Path::new("out").join(stem)
+}

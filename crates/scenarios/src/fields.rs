@@ -1,0 +1,101 @@
+//! Fields of a state for files and pictures.
+
+use fe_core::{CellKind, ElementState};
+use nscd::{ContactStatus, State};
+
+use crate::build::Built;
+use crate::output::{Array, CellShape, Cells, Frame, Values};
+
+/// Fields of one state in the layout of the files.
+#[derive(Debug)]
+pub struct Fields {
+    displacement: Vec<f64>,
+    velocity: Vec<f64>,
+    contact_force: Vec<f64>,
+    contact_status: Vec<i32>,
+    von_mises: Vec<f64>,
+    cauchy: Vec<f64>,
+    body: Vec<i32>,
+}
+
+impl Fields {
+    /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip.
+    pub fn new(built: &Built, state: &State) -> Fields {
+        let dim = built.model.solid.dim();
+        let stress = stresses(built, state);
+        let mut contact_status = vec![0; built.model.solid.node_count()];
+        for c in &state.contacts {
+            contact_status[c.node as usize] = match c.status {
+                ContactStatus::Open => 0,
+                ContactStatus::Stick => 1,
+                ContactStatus::Slip => 2,
+            };
+        }
+        let blocks = built.model.solid.blocks().iter().zip(&built.body_of_block);
+        Fields {
+            displacement: spatial(&state.u, dim),
+            velocity: spatial(&state.v, dim),
+            contact_force: spatial(&state.contact_force, dim),
+            contact_status,
+            von_mises: stress.iter().map(|s| s.von_mises).collect(),
+            cauchy: stress.iter().flat_map(|s| s.cauchy).collect(),
+            body: blocks.flat_map(|(b, &body)| vec![body; b.element_count()]).collect(),
+        }
+    }
+
+    /// The fields with the mesh, ready to be written.
+    pub fn frame<'a>(&'a self, built: &'a Built, state: &State) -> Frame<'a> {
+        let mesh = built.model.solid.mesh();
+        let shape = |kind| match kind {
+            CellKind::Tet4 => CellShape::Tet4,
+            _ => CellShape::Hex8,
+        };
+        let array = |name, values| Array { name, values };
+        Frame {
+            time: state.time,
+            points: &mesh.points,
+            cells: mesh.blocks.iter().map(|b| Cells { shape: shape(b.kind), connectivity: &b.cells }).collect(),
+            point_data: vec![
+                array("displacement", Values::Vector(&self.displacement)),
+                array("velocity", Values::Vector(&self.velocity)),
+                array("contact_force", Values::Vector(&self.contact_force)),
+                array("contact_status", Values::Integer(&self.contact_status)),
+            ],
+            cell_data: vec![
+                array("von_mises", Values::Scalar(&self.von_mises)),
+                array("cauchy_stress", Values::SymmetricTensor(&self.cauchy)),
+                array("body", Values::Integer(&self.body)),
+            ],
+        }
+    }
+
+    /// Von Mises stress at a node \[Pa\]: mean over the elements around it.
+    pub fn nodal_von_mises(built: &Built, state: &State, node: u32) -> f64 {
+        let blocks = built.model.solid.blocks().iter();
+        let cells = blocks.flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
+        let stress = stresses(built, state);
+        let around = cells.zip(&stress).filter(|(cell, _)| cell.contains(&node));
+        let (sum, count) = around.fold((0.0, 0), |(sum, count), (_, s)| (sum + s.von_mises, count + 1));
+        sum / f64::from(count.max(1))
+    }
+}
+
+/// Stress of every element; an accepted state has no inverted element, so the call cannot fail there.
+fn stresses(built: &Built, state: &State) -> Vec<ElementState> {
+    let mut all = Vec::new();
+    for block in built.model.solid.blocks() {
+        let empty = ElementState { cauchy: [0.0; 6], von_mises: 0.0, det_f_min: 0.0, det_f_max: 0.0 };
+        let mut states = vec![empty; block.element_count()];
+        if block.stress_state(&state.u, &mut states).is_err() {
+            states.fill(ElementState { cauchy: [f64::NAN; 6], von_mises: f64::NAN, ..empty });
+        }
+        all.extend(states);
+    }
+    all
+}
+
+/// Three components a node whatever the dimension.
+fn spatial(field: &[f64], dim: usize) -> Vec<f64> {
+    let full = |v: &[f64]| std::array::from_fn::<f64, 3, _>(|i| v.get(i).copied().unwrap_or(0.0));
+    field.chunks_exact(dim).flat_map(full).collect()
+}

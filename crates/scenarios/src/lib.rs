@@ -1,0 +1,14 @@
+//! Scenes, runs and results: the only crate that reads files, writes files and looks at the clock.
+//!
+//! A scene is a RON text ([`spec`]), built in ([`catalog`]) or a file. The results of a run go into one folder
+//! ([`output`]); [`report`] prints them. The program `setae` is a thin shell around this library.
+
+pub mod build;
+pub mod catalog;
+pub mod clock;
+pub mod fields;
+pub mod output;
+pub mod progress;
+pub mod report;
+pub mod run;
+pub mod spec;

@@ -1,0 +1,26 @@
+//! Results of a run in one folder.
+//!
+//! | file | content |
+//! |---|---|
+//! | `summary.json` | how the run ended and what it cost ([`Summary`]); written last, in one move |
+//! | `history.csv` | one row an accepted step, on disk as soon as the step is accepted ([`Row`]) |
+//! | `fields.pvd`, `fields/*.vtu` | fields for ParaView and pyvista ([`Frame`]), reference positions and displacement |
+//! | `*.svg` | the plots that the scene asks for |
+
+mod csv;
+mod folder;
+mod frame;
+mod history;
+mod plot;
+mod results;
+mod summary;
+mod vtu;
+
+pub use self::csv::HistoryFile;
+pub use folder::{Folder, OutputError};
+pub use frame::{Array, CellShape, Cells, Frame, Values};
+pub use history::{ENERGY_COLUMNS, Energies, Force, History, Layout, ProbeColumns, Row};
+pub use plot::{deformed_svg, energy_svg, series_svg};
+pub use results::Results;
+pub use summary::{EnergySummary, Status, Summary};
+pub use vtu::{vtu_bytes, write_pvd};

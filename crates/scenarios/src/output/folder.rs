@@ -1,0 +1,134 @@
+//! The folder of a run.
+
+use std::fs;
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+/// Why results cannot be written.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    /// The folder cannot be made or written to.
+    #[error("cannot write into the output folder {}: {source}; choose another one with --out", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The fields given by the solver do not fit together.
+    #[error("fields at t = {time} s are not written: {defect}")]
+    Frame {
+        /// Time of the fields \[s\].
+        time: f64,
+        /// What does not fit.
+        defect: String,
+    },
+    /// A plot cannot be drawn.
+    #[error("cannot draw {name}: {reason}")]
+    Plot {
+        /// File name of the plot.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// An existing folder that can be written to.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes the folder with its parents and writes a file on trial, before anything is computed. Results of an
+    /// earlier run are removed, so that a run that is broken off cannot be taken for the earlier one.
+    ///
+    /// # Errors
+    /// [`OutputError::Folder`] when it cannot be made or written to.
+    pub fn create(path: &Path) -> Result<Folder, OutputError> {
+        let folder = Folder {
+            path: path.to_owned(),
+        };
+        folder.prepare().map_err(|source| OutputError::Folder {
+            path: path.to_owned(),
+            source,
+        })?;
+        Ok(folder)
+    }
+
+    fn prepare(&self) -> io::Result<()> {
+        fs::create_dir_all(&self.path)?;
+        let trial = self.file(".setae-trial");
+        fs::write(&trial, b"trial")?;
+        fs::remove_file(&trial)?;
+        let svg = |name: &str| name.ends_with(".svg");
+        self.remove(&self.path, |name| {
+            matches!(name, "summary.json" | "history.csv" | "fields.pvd") || svg(name)
+        })?;
+        let fields = self.file("fields");
+        if fields.is_dir() {
+            self.remove(&fields, |name| {
+                name.starts_with("step_") && name.ends_with(".vtu")
+            })?;
+        }
+        Ok(())
+    }
+
+    fn remove(&self, folder: &Path, ours: impl Fn(&str) -> bool) -> io::Result<()> {
+        for entry in fs::read_dir(folder)? {
+            let entry = entry?;
+            if entry.file_name().to_str().is_some_and(&ours) && entry.file_type()?.is_file() {
+                fs::remove_file(entry.path())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of a file in it.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.path.join(name)
+    }
+
+    /// Writes a whole file: under another name first, then moved, so that a reader sees all of it or nothing.
+    ///
+    /// # Errors
+    /// [`OutputError::File`].
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
+        let path = self.file(name);
+        let mut temporary = path.clone().into_os_string();
+        temporary.push(".part");
+        let write = || -> io::Result<()> {
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent)?;
+            }
+            let mut file = fs::File::create(&temporary)?;
+            file.write_all(bytes)?;
+            file.flush()?;
+            drop(file);
+            fs::rename(&temporary, &path)
+        };
+        write().map_err(|source| {
+            // The part is of no use to anyone; if even this fails there is nothing more to do.
+            let _ = fs::remove_file(&temporary);
+            OutputError::File {
+                path: path.clone(),
+                source,
+            }
+        })
+    }
+}

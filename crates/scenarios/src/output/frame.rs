@@ -1,0 +1,190 @@
+//! Fields of one moment, in plain arrays.
+
+/// Mesh and fields at one time. Nothing here knows of the solver: any code can fill it.
+#[derive(Clone, Debug)]
+pub struct Frame<'a> {
+    /// Time \[s\].
+    pub time: f64,
+    /// Reference positions \[m\].
+    pub points: &'a [[f64; 3]],
+    /// Cells in the order of the cell data.
+    pub cells: Vec<Cells<'a>>,
+    /// Fields with one tuple a point. `displacement` (3 components) is used by pictures.
+    pub point_data: Vec<Array<'a>>,
+    /// Fields with one tuple a cell. `von_mises` (1 component) is used by pictures.
+    pub cell_data: Vec<Array<'a>>,
+}
+
+/// Cells of one shape.
+#[derive(Clone, Copy, Debug)]
+pub struct Cells<'a> {
+    /// Shape.
+    pub shape: CellShape,
+    /// Nodes, cell after cell, in the order of VTK.
+    pub connectivity: &'a [u32],
+}
+
+/// Shapes of cells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CellShape {
+    /// Triangle, 3 nodes.
+    Tri3,
+    /// Quadrilateral, 4 nodes.
+    Quad4,
+    /// Tetrahedron, 4 nodes.
+    Tet4,
+    /// Hexahedron, 8 nodes.
+    Hex8,
+}
+
+impl CellShape {
+    /// Nodes a cell.
+    pub fn node_count(self) -> usize {
+        match self {
+            CellShape::Tri3 => 3,
+            CellShape::Quad4 | CellShape::Tet4 => 4,
+            CellShape::Hex8 => 8,
+        }
+    }
+
+    /// Number of the shape in VTK files.
+    pub fn vtk_type(self) -> u8 {
+        match self {
+            CellShape::Tri3 => 5,
+            CellShape::Quad4 => 9,
+            CellShape::Tet4 => 10,
+            CellShape::Hex8 => 12,
+        }
+    }
+
+    /// Faces as local nodes, outward by the right-hand rule; a plane cell is its own face.
+    pub fn faces(self) -> &'static [&'static [usize]] {
+        match self {
+            CellShape::Tri3 => &[&[0, 1, 2]],
+            CellShape::Quad4 => &[&[0, 1, 2, 3]],
+            CellShape::Tet4 => &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]],
+            CellShape::Hex8 => &[
+                &[0, 3, 2, 1],
+                &[4, 5, 6, 7],
+                &[0, 1, 5, 4],
+                &[1, 2, 6, 5],
+                &[2, 3, 7, 6],
+                &[3, 0, 4, 7],
+            ],
+        }
+    }
+}
+
+impl Cells<'_> {
+    /// Number of cells.
+    pub fn count(&self) -> usize {
+        self.connectivity.len() / self.shape.node_count()
+    }
+}
+
+/// A named field, tuple after tuple.
+#[derive(Clone, Debug)]
+pub struct Array<'a> {
+    /// Name in the file.
+    pub name: &'a str,
+    /// Values and their meaning.
+    pub values: Values<'a>,
+}
+
+/// Values of a field.
+#[derive(Clone, Copy, Debug)]
+pub enum Values<'a> {
+    /// One number a tuple.
+    Scalar(&'a [f64]),
+    /// Three numbers a tuple: x, y, z.
+    Vector(&'a [f64]),
+    /// Symmetric tensors, six numbers a tuple in the order 11 22 33 12 13 23; files get VTK's order
+    /// XX YY ZZ XY YZ XZ.
+    SymmetricTensor(&'a [f64]),
+    /// One whole number a tuple: a number of a body, a status.
+    Integer(&'a [i32]),
+}
+
+impl Values<'_> {
+    /// Numbers a tuple.
+    pub fn components(&self) -> usize {
+        match self {
+            Values::Scalar(_) | Values::Integer(_) => 1,
+            Values::Vector(_) => 3,
+            Values::SymmetricTensor(_) => 6,
+        }
+    }
+
+    /// Number of tuples.
+    pub fn tuples(&self) -> usize {
+        let length = match self {
+            Values::Scalar(v) | Values::Vector(v) | Values::SymmetricTensor(v) => v.len(),
+            Values::Integer(v) => v.len(),
+        };
+        length / self.components()
+    }
+}
+
+impl<'a> Frame<'a> {
+    /// Number of cells of all shapes.
+    pub fn cell_count(&self) -> usize {
+        self.cells.iter().map(Cells::count).sum()
+    }
+
+    /// A vector field at the points.
+    pub fn point_vector(&self, name: &str) -> Option<&'a [f64]> {
+        self.point_data
+            .iter()
+            .find(|array| array.name == name)
+            .and_then(|array| match array.values {
+                Values::Vector(values) => Some(values),
+                _ => None,
+            })
+    }
+
+    /// A scalar field of the cells.
+    pub fn cell_scalar(&self, name: &str) -> Option<&'a [f64]> {
+        self.cell_data
+            .iter()
+            .find(|array| array.name == name)
+            .and_then(|array| match array.values {
+                Values::Scalar(values) => Some(values),
+                _ => None,
+            })
+    }
+
+    /// What does not fit together, as a sentence: wrong lengths, nodes out of range.
+    pub fn defect(&self) -> Option<String> {
+        for (data, tuples, what) in [
+            (&self.point_data, self.points.len(), "points"),
+            (&self.cell_data, self.cell_count(), "cells"),
+        ] {
+            if let Some(array) = data.iter().find(|array| array.values.tuples() != tuples) {
+                let found = array.values.tuples();
+                return Some(format!(
+                    "field `{}` has {found} tuples for {tuples} {what}",
+                    array.name
+                ));
+            }
+        }
+        for cells in &self.cells {
+            if cells.connectivity.len() % cells.shape.node_count() != 0 {
+                return Some(format!(
+                    "the nodes of the {:?} cells are not full cells",
+                    cells.shape
+                ));
+            }
+            if let Some(node) = cells
+                .connectivity
+                .iter()
+                .find(|node| **node as usize >= self.points.len())
+            {
+                return Some(format!(
+                    "a cell has node {node}, but there are {} points",
+                    self.points.len()
+                ));
+            }
+        }
+        None
+    }
+}

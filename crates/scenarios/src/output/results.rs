@@ -1,0 +1,238 @@
+//! All results of a run, written as it goes.
+
+use std::path::Path;
+
+use super::{
+    Folder, Frame, History, HistoryFile, Layout, OutputError, Row, Summary, deformed_svg,
+    energy_svg, series_svg, vtu_bytes, write_pvd,
+};
+use crate::spec::{FieldsEvery, Plot, Scene};
+
+/// Writer of a run's results. Call [`Results::create`] before anything is computed, [`Results::start`] with the
+/// initial state, [`Results::record`] after each accepted step, [`Results::frame`] when [`Results::wants_frame`]
+/// says so, and [`Results::finish`] however the run ended.
+#[derive(Debug)]
+pub struct Results {
+    folder: Folder,
+    file: HistoryFile,
+    layout: Layout,
+    history: History,
+    title: String,
+    schedule: Schedule,
+    fields: Vec<(f64, String)>,
+}
+
+/// Which fields and pictures are still to come.
+#[derive(Debug)]
+struct Schedule {
+    every: FieldsEvery,
+    plots: Vec<Plot>,
+    /// Pictures drawn so far, in step with `plots`.
+    drawn: Vec<bool>,
+    /// Next multiple of the interval \[s\].
+    next: f64,
+    /// Step of the last written fields.
+    written: Option<usize>,
+}
+
+impl Schedule {
+    fn fields_due(&self, step: usize, time: f64, last: bool) -> bool {
+        if self.written == Some(step) {
+            return false;
+        }
+        match self.every {
+            FieldsEvery::Never => false,
+            FieldsEvery::Steps(n) => last || step.is_multiple_of(n.max(1)),
+            FieldsEvery::Interval(dt) => last || step == 0 || reached(time, self.next, dt),
+        }
+    }
+
+    fn picture_due(&self, index: usize, time: f64, last: bool) -> bool {
+        let due = match self.plots[index] {
+            Plot::Deformed => last,
+            Plot::DeformedAt(at) => last || reached(time, at, at),
+            _ => false,
+        };
+        due && !self.drawn[index]
+    }
+
+    fn advance(&mut self, step: usize, time: f64) {
+        self.written = Some(step);
+        if let FieldsEvery::Interval(dt) = self.every {
+            let periods = (time / dt * (1.0 + 1e-12) + 1e-9).floor();
+            self.next = (periods + 1.0) * dt;
+        }
+    }
+}
+
+/// Sums of steps reach a time only to round-off.
+fn reached(time: f64, target: f64, scale: f64) -> bool {
+    time >= target - 1e-9 * scale.abs()
+}
+
+impl Results {
+    /// Makes the folder, checks that it can be written to, removes an earlier run's results, opens `history.csv`.
+    ///
+    /// # Errors
+    /// [`OutputError::Folder`], [`OutputError::File`].
+    pub fn create(folder: &Path, scene: &Scene) -> Result<Results, OutputError> {
+        let folder = Folder::create(folder)?;
+        let layout = Layout::of(scene);
+        let file = HistoryFile::create(&folder, &layout.header())?;
+        let plots = scene.output.plots.clone();
+        Ok(Results {
+            folder,
+            file,
+            history: History::new(layout.header()),
+            layout,
+            title: scene.title.clone(),
+            schedule: Schedule {
+                every: scene.output.fields_every,
+                drawn: vec![false; plots.len()],
+                plots,
+                next: 0.0,
+                written: None,
+            },
+            fields: Vec::new(),
+        })
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Folder {
+        &self.folder
+    }
+
+    /// Columns of `history.csv`.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Rows so far, the initial state first when [`Results::start`] was called.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// The state at the start: curves begin there, `history.csv` has accepted steps only.
+    pub fn start(&mut self, row: &Row) {
+        self.history.push(self.layout.numbers(row));
+    }
+
+    /// Writes an accepted step to `history.csv`.
+    ///
+    /// # Errors
+    /// [`OutputError::File`].
+    pub fn record(&mut self, row: &Row) -> Result<(), OutputError> {
+        let numbers = self.layout.numbers(row);
+        self.file.push(&numbers)?;
+        self.history.push(numbers);
+        Ok(())
+    }
+
+    /// True when [`Results::frame`] would write something: call it with step 0 at the start and with `last` at the
+    /// end, also of a run that stops.
+    pub fn wants_frame(&self, step: usize, time: f64, last: bool) -> bool {
+        let pictures =
+            (0..self.schedule.plots.len()).any(|i| self.schedule.picture_due(i, time, last));
+        pictures || self.schedule.fields_due(step, time, last)
+    }
+
+    /// Writes the fields and pictures that are due at this step.
+    ///
+    /// # Errors
+    /// [`OutputError`]: fields that do not fit together, files that cannot be written.
+    pub fn frame(&mut self, step: usize, frame: &Frame<'_>, last: bool) -> Result<(), OutputError> {
+        if let Some(defect) = frame.defect() {
+            return Err(OutputError::Frame {
+                time: frame.time,
+                defect,
+            });
+        }
+        if self.schedule.fields_due(step, frame.time, last) {
+            self.write_fields(step, frame)?;
+        }
+        for i in 0..self.schedule.plots.len() {
+            if self.schedule.picture_due(i, frame.time, last) {
+                self.schedule.drawn[i] = true;
+                let name = match self.schedule.plots[i] {
+                    Plot::DeformedAt(at) => format!("deformed_{at}.svg"),
+                    _ => "deformed.svg".to_owned(),
+                };
+                let svg = deformed_svg(&self.title, frame);
+                self.draw(&name, svg)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn write_fields(&mut self, step: usize, frame: &Frame<'_>) -> Result<(), OutputError> {
+        let name = format!("fields/step_{step:06}.vtu");
+        let path = self.folder.file(&name);
+        let bytes = vtu_bytes(frame).map_err(|source| OutputError::File { path, source })?;
+        self.folder.write(&name, &bytes)?;
+        self.fields.push((frame.time, name));
+        self.folder
+            .write("fields.pvd", write_pvd(&self.fields).as_bytes())?;
+        self.schedule.advance(step, frame.time);
+        Ok(())
+    }
+
+    fn draw(&self, name: &str, svg: Result<String, String>) -> Result<(), OutputError> {
+        let svg = svg.map_err(|reason| OutputError::Plot {
+            name: name.to_owned(),
+            reason,
+        })?;
+        self.folder.write(name, svg.as_bytes())
+    }
+
+    /// Draws the curves and writes `summary.json`, which is written even when a curve fails.
+    ///
+    /// # Errors
+    /// The first [`OutputError`].
+    pub fn finish(self, summary: &Summary) -> Result<(), OutputError> {
+        let drawn = self.curves();
+        summary.write(&self.folder)?;
+        drawn
+    }
+
+    fn curves(&self) -> Result<(), OutputError> {
+        for plot in &self.schedule.plots {
+            match plot {
+                Plot::Energy => self.draw("energy.svg", energy_svg(&self.title, &self.history))?,
+                Plot::Force(name) => self.vector(name, "force", "Force [N]")?,
+                Plot::Moment(name) => self.vector(name, "moment", "Moment [N m]")?,
+                Plot::Probe(name) => self.probe(name)?,
+                Plot::Deformed | Plot::DeformedAt(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn vector(&self, name: &str, kind: &str, label: &str) -> Result<(), OutputError> {
+        let columns =
+            ["x", "y", "z"].map(|axis| (axis.to_owned(), format!("{kind}.{name}.{axis}")));
+        let title = format!("{}: {name}", self.title);
+        let svg = series_svg(&title, label, &self.history, &columns);
+        self.draw(&format!("{kind}_{name}.svg"), svg)
+    }
+
+    fn probe(&self, name: &str) -> Result<(), OutputError> {
+        let probes = self
+            .layout
+            .probes
+            .iter()
+            .filter(|probe| probe.name == *name);
+        for quantity in probes.flat_map(|probe| &probe.quantities) {
+            let column = format!("probe.{name}.{}", quantity.name());
+            let columns: Vec<(String, String)> = match quantity.components() {
+                1 => vec![(quantity.name().to_owned(), column)],
+                _ => ["x", "y", "z"]
+                    .map(|axis| (axis.to_owned(), format!("{column}.{axis}")))
+                    .into(),
+            };
+            let title = format!("{}: {name}", self.title);
+            let svg = series_svg(&title, &quantity.label(), &self.history, &columns);
+            self.draw(&format!("probe_{name}_{}.svg", quantity.name()), svg)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,131 @@
+//! `summary.json`.
+
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
+
+use super::{Energies, Folder, OutputError};
+
+/// How the run ended.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// The end was reached and every accepted step converged.
+    Completed,
+    /// Stopped before the end; [`Summary::reason`] says why. What was computed stays.
+    #[default]
+    Stopped,
+}
+
+/// What a run did and cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// How it ended.
+    pub status: Status,
+    /// Why it stopped: step, time, contact, element, residual; null when completed.
+    pub reason: Option<String>,
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Accepted steps \[-\].
+    pub steps: usize,
+    /// Rejected steps \[-\].
+    pub rejected_steps: usize,
+    /// Newton iterations of all steps \[-\].
+    pub newton_iterations: usize,
+    /// Numeric factorizations \[-\].
+    pub factorizations: usize,
+    /// Contact problems solved \[-\].
+    pub contact_solves: usize,
+    /// Iterations of all contact solves \[-\].
+    pub contact_iterations: usize,
+    /// Unknowns \[-\].
+    pub dofs: usize,
+    /// Elements \[-\].
+    pub elements: usize,
+    /// Most contacts in a step \[-\].
+    pub contacts_max: usize,
+    /// CPU time of all threads \[s\].
+    pub cpu_s: f64,
+    /// Wall time \[s\].
+    pub wall_s: f64,
+    /// Wall time by phase \[s\].
+    pub phases: IndexMap<String, f64>,
+    /// Energy audit.
+    pub energy: EnergySummary,
+    /// Deepest penetration at the end of an accepted step \[m\].
+    pub max_penetration: f64,
+    /// Largest relative error of the contact law in an accepted step \[-\].
+    pub max_contact_error: f64,
+}
+
+/// Energy audit of a run \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EnergySummary {
+    /// Kinetic, strain and adhesive energy at the start \[J\].
+    pub initial: f64,
+    /// The same at the end \[J\].
+    #[serde(rename = "final")]
+    pub end: f64,
+    /// Kinetic energy at the end \[J\].
+    pub kinetic: f64,
+    /// Strain energy at the end \[J\].
+    pub strain: f64,
+    /// Energy of the adhesive bonds at the end \[J\].
+    pub adhesive: f64,
+    /// Work of loads and prescribed motions \[J\].
+    pub load_work: f64,
+    /// Dissipated by friction \[J\].
+    pub friction_dissipation: f64,
+    /// Dissipated by bonds \[J\].
+    pub bond_dissipation: f64,
+    /// Dissipated by damping \[J\].
+    pub damping_dissipation: f64,
+    /// Lost by contacts that close \[J\].
+    pub impact_loss: f64,
+    /// Lost (positive) or gained (negative) by the time integration \[J\].
+    pub integration_error: f64,
+}
+
+impl EnergySummary {
+    /// From the total energy at the start \[J\] and the energies at the end.
+    pub fn new(initial: f64, end: &Energies) -> EnergySummary {
+        EnergySummary {
+            initial,
+            end: end.total(),
+            kinetic: end.kinetic,
+            strain: end.strain,
+            adhesive: end.adhesive,
+            load_work: end.load_work,
+            friction_dissipation: end.friction_dissipation,
+            bond_dissipation: end.bond_dissipation,
+            damping_dissipation: end.damping_dissipation,
+            impact_loss: end.impact_loss,
+            integration_error: end.integration_error,
+        }
+    }
+
+    /// What the listed terms leave unexplained \[J\]: end - initial - work + dissipations + integration error. Each
+    /// term has its own formula, so zero proves something.
+    pub fn unexplained(&self) -> f64 {
+        let lost = self.friction_dissipation
+            + self.bond_dissipation
+            + self.damping_dissipation
+            + self.impact_loss
+            + self.integration_error;
+        self.end - self.initial - self.load_work + lost
+    }
+}
+
+impl Summary {
+    /// Writes `summary.json` in one move.
+    ///
+    /// # Errors
+    /// [`OutputError::File`].
+    pub fn write(&self, folder: &Folder) -> Result<(), OutputError> {
+        let mut text = serde_json::to_vec_pretty(self).map_err(|source| OutputError::File {
+            path: folder.file("summary.json"),
+            source: source.into(),
+        })?;
+        text.push(b'\n');
+        folder.write("summary.json", &text)
+    }
+}

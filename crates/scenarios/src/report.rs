@@ -1,0 +1,194 @@
+//! What the program prints: descriptions of scenes and the table that closes a run.
+
+use std::fmt::Write as _;
+
+use crate::output::{Status, Summary};
+use crate::spec::{Inertia, Law, Master, Scene};
+
+/// A short description of a checked scene: bodies, unknowns, interfaces, steps.
+pub fn description(name: &str, scene: &Scene) -> String {
+    let mut text = format!("{name}: {}\n", scene.title);
+    let mut rows = Vec::new();
+    for (name, body) in &scene.bodies {
+        let size = body.mesh.size(scene.refine);
+        let law = scene
+            .materials
+            .get(&body.material)
+            .map_or("?", |material| law_name(&material.law));
+        let counts = format!(
+            "{} elements, {} nodes, {law} `{}`",
+            size.elements, size.nodes, body.material
+        );
+        rows.push((format!("body {name}"), counts));
+    }
+    for (name, interface) in &scene.interfaces {
+        let master = match &interface.master {
+            Master::Facets(facets) => format!("`{facets}`"),
+            Master::Plane { .. } => "rigid plane".into(),
+            Master::Sphere { .. } => "rigid sphere".into(),
+            Master::Cylinder { .. } => "rigid cylinder".into(),
+            Master::Cone { .. } => "rigid cone".into(),
+        };
+        rows.push((
+            format!("interface {name}"),
+            format!("`{}` on {master}, mu = {}", interface.slave, interface.mu),
+        ));
+    }
+    for (name, given) in &scene.motions {
+        rows.push((
+            format!("motion {name}"),
+            format!("`{}`, components {}", given.nodes, given.components),
+        ));
+    }
+    let inertia = match scene.time.inertia {
+        Inertia::Dynamic => "dynamic",
+        Inertia::QuasiStatic => "quasi-static",
+    };
+    let size = scene.size();
+    rows.push(("elements".into(), size.elements.to_string()));
+    rows.push((
+        "dofs".into(),
+        format!("{} (prescribed ones included)", size.dofs()),
+    ));
+    rows.push((
+        "steps".into(),
+        format!(
+            "{} of {} s to {} s, {inertia}",
+            scene.step_count(),
+            scene.time.dt,
+            scene.time.end
+        ),
+    ));
+    text += &aligned(&rows);
+    text
+}
+
+fn law_name(law: &Law) -> &'static str {
+    match law {
+        Law::SaintVenantKirchhoff { .. } => "SaintVenantKirchhoff",
+        Law::ThreeE { .. } => "ThreeE",
+        Law::BlatzKo { .. } => "BlatzKo",
+        Law::NeoHookean { .. } => "NeoHookean",
+    }
+}
+
+fn aligned(rows: &[(String, String)]) -> String {
+    let width = rows
+        .iter()
+        .map(|(name, _)| name.chars().count())
+        .max()
+        .unwrap_or(0);
+    rows.iter()
+        .map(|(name, value)| format!("  {name:<width$}  {value}\n"))
+        .collect()
+}
+
+/// Counters, phases and the energy audit as aligned columns.
+pub fn closing_table(summary: &Summary) -> String {
+    let mut text = match (&summary.status, &summary.reason) {
+        (Status::Completed, _) => format!(
+            "completed: {} steps to t = {}\n",
+            summary.steps,
+            short(summary.time)
+        ),
+        (Status::Stopped, reason) => {
+            let reason = reason.as_deref().unwrap_or("no reason given");
+            format!(
+                "stopped at t = {} after {} steps: {reason}\n",
+                short(summary.time),
+                summary.steps
+            )
+        }
+    };
+    let columns = [counters(summary), phases(summary), energies(summary)];
+    let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
+    text.push('\n');
+    for i in 0..rows {
+        let mut line = String::new();
+        for column in &columns {
+            let names = column
+                .iter()
+                .map(|(name, _)| name.chars().count())
+                .max()
+                .unwrap_or(0);
+            let values = column
+                .iter()
+                .map(|(_, value)| value.chars().count())
+                .max()
+                .unwrap_or(0);
+            let (name, value) = column
+                .get(i)
+                .map_or(("", ""), |(n, v)| (n.as_str(), v.as_str()));
+            // A heading has no value and may run over both columns.
+            let _ = write!(line, "{name:<names$}  {value:>values$}    ");
+        }
+        text += line.trim_end();
+        text.push('\n');
+    }
+    text
+}
+
+type Rows = Vec<(String, String)>;
+
+fn counters(summary: &Summary) -> Rows {
+    let count = |name: &str, value: usize| (name.to_owned(), value.to_string());
+    vec![
+        ("Counters".to_owned(), String::new()),
+        count("steps", summary.steps),
+        count("rejected steps", summary.rejected_steps),
+        count("Newton iterations", summary.newton_iterations),
+        count("factorizations", summary.factorizations),
+        count("contact solves", summary.contact_solves),
+        count("contact iterations", summary.contact_iterations),
+        count("most contacts", summary.contacts_max),
+        count("dofs", summary.dofs),
+        count("elements", summary.elements),
+        (
+            "max penetration [m]".to_owned(),
+            format!("{:.2e}", summary.max_penetration),
+        ),
+        (
+            "max contact error [-]".to_owned(),
+            format!("{:.2e}", summary.max_contact_error),
+        ),
+    ]
+}
+
+fn phases(summary: &Summary) -> Rows {
+    let mut rows = vec![
+        ("Time [s]".to_owned(), String::new()),
+        ("cpu".to_owned(), format!("{:.3}", summary.cpu_s)),
+        ("wall".to_owned(), format!("{:.3}", summary.wall_s)),
+    ];
+    rows.extend(
+        summary
+            .phases
+            .iter()
+            .map(|(name, seconds)| (format!("- {name}"), format!("{seconds:.3}"))),
+    );
+    rows
+}
+
+fn energies(summary: &Summary) -> Rows {
+    let energy = &summary.energy;
+    let joule = |name: &str, value: f64| (name.to_owned(), format!("{value:.6e}"));
+    vec![
+        ("Energy [J]".to_owned(), String::new()),
+        joule("initial", energy.initial),
+        joule("final", energy.end),
+        joule("- kinetic", energy.kinetic),
+        joule("- strain", energy.strain),
+        joule("- adhesive", energy.adhesive),
+        joule("load work", energy.load_work),
+        joule("friction dissipation", energy.friction_dissipation),
+        joule("bond dissipation", energy.bond_dissipation),
+        joule("damping dissipation", energy.damping_dissipation),
+        joule("impact loss", energy.impact_loss),
+        joule("integration error", energy.integration_error),
+        joule("unexplained", energy.unexplained()),
+    ]
+}
+
+fn short(value: f64) -> String {
+    format!("{}", format!("{value:.6e}").parse::<f64>().unwrap_or(value))
+}

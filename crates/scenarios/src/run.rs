@@ -1,0 +1,192 @@
+//! From a checked scene to results.
+
+use std::path::Path;
+
+use nscd::{Clock, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
+use thiserror::Error;
+
+use crate::build::{Built, build};
+use crate::clock::Stopwatch;
+use crate::fields::Fields;
+use crate::output::{EnergySummary, Energies, Force, OutputError, Results, Row, Status, Summary};
+use crate::progress::Progress;
+use crate::spec::{LoadedScene, Quantity, SceneError};
+
+/// Why a run could not be made at all. A run that stops before its end is not an error but a [`Summary`] that says
+/// so.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// The scene describes something that cannot be built.
+    #[error(transparent)]
+    Scene(#[from] Box<SceneError>),
+    /// The results cannot be written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+}
+
+/// Computes a scene and writes its results into a folder; `watch` is called after each accepted step.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run(loaded: &LoadedScene, folder: &Path, watch: &mut dyn FnMut(&Progress)) -> Result<Summary, RunError> {
+    let stopwatch = Stopwatch::start();
+    let built = build(loaded).map_err(Box::new)?;
+    let refuse = |e: NscdError| Box::new(loaded.refuse("time", e.to_string()));
+    let mut stepper = Stepper::new(&built.model, Box::new(stopwatch)).map_err(refuse)?;
+    let mut state = stepper.initial_state(built.velocity.clone()).map_err(refuse)?;
+    let results = Results::create(folder, &loaded.scene)?;
+    let mut recorder = Recorder { loaded, built: &built, results, watch, failure: None };
+    recorder.start(&state)?;
+    let mut totals = Totals::default();
+    let end = march(&mut stepper, &mut state, built.span, &mut totals, &mut recorder);
+    if let Some(failure) = recorder.failure {
+        return Err(failure.into());
+    }
+    recorder.frame(&state, stepper.counters.steps as usize, true)?;
+    let summary = summarise(&stepper, &state, &totals, &stopwatch, end.err());
+    recorder.results.finish(&summary)?;
+    Ok(summary)
+}
+
+impl Clock for Stopwatch {
+    fn seconds(&self) -> f64 {
+        self.wall_s()
+    }
+}
+
+/// Writes what the stepper reports.
+struct Recorder<'a> {
+    loaded: &'a LoadedScene,
+    built: &'a Built,
+    results: Results,
+    watch: &'a mut dyn FnMut(&Progress),
+    /// An output error ends the march; it is kept here to be told as it is.
+    failure: Option<OutputError>,
+}
+
+impl Recorder<'_> {
+    fn start(&mut self, state: &State) -> Result<(), OutputError> {
+        let report = StepReport {
+            interfaces: vec![nscd::Resultant::default(); self.built.model.interfaces.len()],
+            supports: vec![nscd::Resultant::default(); self.built.model.supports.len()],
+            ..StepReport::default()
+        };
+        let row = self.row(state, &report, &Totals::default());
+        self.results.start(&row);
+        self.frame(state, 0, false)
+    }
+
+    fn frame(&mut self, state: &State, step: usize, last: bool) -> Result<(), OutputError> {
+        if !self.results.wants_frame(step, state.time, last) {
+            return Ok(());
+        }
+        let fields = Fields::new(self.built, state);
+        self.results.frame(step, &fields.frame(self.built, state), last)
+    }
+
+    fn row(&self, state: &State, report: &StepReport, totals: &Totals) -> Row {
+        let resultants = report.interfaces.iter().chain(&report.supports);
+        Row {
+            time: state.time,
+            energies: energies(state, totals),
+            forces: resultants.map(|r| Force { force: r.force, moment: r.moment }).collect(),
+            probes: self.probes(state),
+        }
+    }
+
+    fn probes(&self, state: &State) -> Vec<f64> {
+        let dim = self.built.model.solid.dim();
+        let stress = |node: u32| Fields::nodal_von_mises(self.built, state, node);
+        let vector = |field: &[f64], node: u32| {
+            let mut v = vec![0.0; 3];
+            v[..dim].copy_from_slice(&field[dim * node as usize..dim * (node as usize + 1)]);
+            v
+        };
+        let probes = self.loaded.scene.output.probes.values().zip(&self.built.probes);
+        let values = probes.flat_map(|(probe, &node)| {
+            probe.quantities.iter().flat_map(move |q| match q {
+                Quantity::Displacement => vector(&state.u, node),
+                Quantity::Velocity => vector(&state.v, node),
+                Quantity::ContactForce => vector(&state.contact_force, node),
+                Quantity::VonMises => vec![stress(node)],
+            })
+        });
+        values.collect()
+    }
+
+    fn record(&mut self, stepper: &Stepper<'_>, state: &State, report: &StepReport, totals: &Totals) -> Result<(), OutputError> {
+        let row = self.row(state, report, totals);
+        self.results.record(&row)?;
+        self.frame(state, stepper.counters.steps as usize, false)
+    }
+}
+
+impl Observer for Recorder<'_> {
+    fn accepted(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        report: &StepReport,
+        totals: &Totals,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        (self.watch)(&Progress {
+            time: state.time,
+            end: self.built.span.end,
+            steps: stepper.counters.steps as usize,
+            rejected_steps: stepper.counters.rejected_steps as usize,
+            newton_iterations: stepper.counters.newton_iterations as usize,
+            contacts: report.contacts_closed,
+        });
+        self.record(stepper, state, report, totals).map_err(|failure| {
+            let text = failure.to_string();
+            self.failure = Some(failure);
+            text.into()
+        })
+    }
+}
+
+fn energies(state: &State, totals: &Totals) -> Energies {
+    let sums = &totals.energy;
+    Energies {
+        kinetic: state.kinetic_energy,
+        strain: state.strain_energy,
+        adhesive: sums.adhesive,
+        load_work: sums.load_work,
+        friction_dissipation: sums.friction,
+        bond_dissipation: sums.bond,
+        damping_dissipation: sums.damping,
+        impact_loss: sums.impact,
+        integration_error: sums.integration_error(),
+    }
+}
+
+fn summarise(
+    stepper: &Stepper<'_>,
+    state: &State,
+    totals: &Totals,
+    stopwatch: &Stopwatch,
+    stopped: Option<NscdError>,
+) -> Summary {
+    let (counters, solid) = (&stepper.counters, &stepper.model().solid);
+    let phases = Phase::ALL.iter().zip(stepper.phases);
+    Summary {
+        status: if stopped.is_none() { Status::Completed } else { Status::Stopped },
+        reason: stopped.map(|e| e.to_string()),
+        time: state.time,
+        steps: counters.steps as usize,
+        rejected_steps: counters.rejected_steps as usize,
+        newton_iterations: counters.newton_iterations as usize,
+        factorizations: counters.factorizations as usize,
+        contact_solves: counters.contact_solves as usize,
+        contact_iterations: counters.contact_iterations as usize,
+        dofs: solid.dof_count(),
+        elements: solid.element_count(),
+        contacts_max: counters.contacts_max as usize,
+        phases: phases.map(|((_, name), seconds)| ((*name).to_owned(), seconds)).collect(),
+        energy: EnergySummary::new(totals.initial_energy, &energies(state, totals)),
+        max_penetration: totals.max_penetration,
+        max_contact_error: totals.max_contact_error,
+        cpu_s: stopwatch.cpu_s(),
+        wall_s: stopwatch.wall_s(),
+    }
+}

@@ -1,0 +1,123 @@
+//! Time, solver and output of a scene.
+
+use super::{Checker, MAX_STEPS, unknown};
+use crate::spec::{ContactLevel, FieldsEvery, Inertia, Plot};
+
+impl Checker<'_> {
+    pub(super) fn time(&mut self) {
+        let time = &self.scene.time;
+        self.positive(time.end, "time.end", "s");
+        self.positive(time.dt, "time.dt", "s");
+        if time.end > 0.0 && time.end.is_finite() && time.dt > 0.0 {
+            self.require(
+                time.dt <= time.end,
+                "time.dt",
+                format!("must not exceed time.end = {} [s]", time.end),
+            );
+            let many = format!(
+                "makes {:e} steps to time.end; at most {MAX_STEPS:e}",
+                time.end / time.dt
+            );
+            self.require(time.end / time.dt <= MAX_STEPS, "time.dt", many);
+        }
+        self.between(time.theta, 0.5, 1.0, "time.theta", "-");
+        self.between(time.xi, 0.5, 1.0, "time.xi", "-");
+        let still = time.inertia == Inertia::QuasiStatic && time.contact == ContactLevel::Velocity;
+        self.require(
+            !still,
+            "time.contact",
+            "must be Position in a QuasiStatic scene, which has no velocities",
+        );
+        if let Some(min_dt) = time.min_dt {
+            let fine = min_dt > 0.0 && min_dt <= time.dt;
+            self.require(
+                fine,
+                "time.min_dt",
+                format!(
+                    "must be greater than 0 and at most time.dt = {} [s]",
+                    time.dt
+                ),
+            );
+        }
+        self.not_negative(self.scene.damping.mass, "damping.mass", "1/s");
+        self.not_negative(self.scene.damping.stiffness, "damping.stiffness", "s");
+    }
+
+    pub(super) fn solver(&mut self) {
+        let solver = &self.scene.solver;
+        for (value, name) in [
+            (solver.contact_tolerance, "contact_tolerance"),
+            (solver.newton_tolerance, "newton_tolerance"),
+        ] {
+            let fine = value.is_none_or(|v| v > 0.0 && v < 1.0);
+            self.require(
+                fine,
+                &format!("solver.{name}"),
+                "must be between 0 and 1 [-]",
+            );
+        }
+        for (value, name) in [
+            (solver.max_contact_iterations, "max_contact_iterations"),
+            (solver.max_newton, "max_newton"),
+        ] {
+            self.require(
+                value.is_none_or(|v| v >= 1),
+                &format!("solver.{name}"),
+                "must be 1 or more [-]",
+            );
+        }
+    }
+
+    pub(super) fn output(&mut self) {
+        let output = &self.scene.output;
+        match output.fields_every {
+            FieldsEvery::Steps(n) => {
+                self.require(n >= 1, "output.fields_every", "must be 1 or more steps")
+            }
+            FieldsEvery::Interval(dt) => self.positive(dt, "output.fields_every", "s"),
+            FieldsEvery::Never => {}
+        }
+        for (i, plot) in output.plots.iter().enumerate() {
+            let path = format!("output.plots.{i}");
+            match plot {
+                Plot::Energy | Plot::Deformed => {}
+                Plot::DeformedAt(t) => self.between(*t, 0.0, self.scene.time.end, &path, "s"),
+                Plot::Force(name) | Plot::Moment(name) => {
+                    let names = self
+                        .scene
+                        .interfaces
+                        .keys()
+                        .chain(self.scene.motions.keys());
+                    let found = names.clone().any(|n| n == name);
+                    self.require(
+                        found,
+                        &path,
+                        unknown("interface or motion", name, names.map(String::as_str)),
+                    );
+                }
+                Plot::Probe(name) => self.known(&output.probes, name, "probe", &path),
+            }
+        }
+        for (name, probe) in &output.probes {
+            let path = format!("output.probes.{name}");
+            self.known(
+                &self.scene.bodies,
+                &probe.body,
+                "body",
+                &format!("{path}.body"),
+            );
+            self.finite(&probe.node, &format!("{path}.node"));
+            let asked = &probe.quantities;
+            let once = asked
+                .iter()
+                .enumerate()
+                .all(|(i, q)| !asked[..i].contains(q));
+            let path = format!("{path}.quantities");
+            self.require(
+                once && !asked.is_empty(),
+                &path,
+                "must name at least one quantity, each once",
+            );
+        }
+    }
+}

@@ -1,0 +1,213 @@
+//! `--set path=value`: the text of one value is replaced, everything around it stays.
+
+use std::str::FromStr;
+
+use super::load::deserialize;
+use super::locate::NodeKind;
+use super::{Scene, SceneError, Source, SpanTree, field_paths};
+
+/// A changed value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Override {
+    /// Dotted path, or any ending of one that no other field has: `interfaces.blocks.mu`, `blocks.mu`, `mu`.
+    pub path: String,
+    /// The value as RON; a text may stand without quotes.
+    pub value: String,
+}
+
+impl FromStr for Override {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            Some((path, value)) if !path.trim().is_empty() && !value.trim().is_empty() => {
+                Ok(Override {
+                    path: path.trim().to_owned(),
+                    value: value.trim().to_owned(),
+                })
+            }
+            _ => Err("expected path=value, as in mu=0.2 or bodies.lower.mesh.cells=(8,8,4)".into()),
+        }
+    }
+}
+
+/// Applies one override to a text that is a scene already; the scene it gives.
+pub(super) fn apply(
+    source: &Source,
+    scene: &Scene,
+    set: &Override,
+) -> Result<(Source, Scene), SceneError> {
+    let refuse = |reason: String| SceneError::Set {
+        path: set.path.clone(),
+        value: set.value.clone(),
+        reason,
+    };
+    let path = resolve(&field_paths(scene), &set.path).map_err(&refuse)?;
+    let mut failure = None;
+    for value in spellings(&set.value) {
+        let mut changed = source.clone();
+        changed.text = replace(&source.text, &path, &value).map_err(&refuse)?;
+        changed.sets.push(Override {
+            path: path.clone(),
+            value: set.value.clone(),
+        });
+        match deserialize(&changed) {
+            Ok(scene) => return Ok((changed, scene)),
+            Err(error) => failure = failure.or(Some(error)),
+        }
+    }
+    let why = match &failure {
+        Some(error) => error
+            .faults()
+            .first()
+            .map(|f| f.message.clone())
+            .unwrap_or_default(),
+        None => String::new(),
+    };
+    let place = source.fault(&path, String::new());
+    let now = if place.value.is_empty() {
+        "it has its default".into()
+    } else {
+        format!("it is {}", place.value)
+    };
+    Err(refuse(format!(
+        "the value does not fit {path}: {why} ({now} in {}:{}:{})",
+        place.file, place.line, place.column
+    )))
+}
+
+/// The full path that an abbreviation means.
+fn resolve(paths: &[String], asked: &str) -> Result<String, String> {
+    if paths.iter().any(|path| path == asked) {
+        return Ok(asked.to_owned());
+    }
+    let ending = format!(".{asked}");
+    let found: Vec<&String> = paths
+        .iter()
+        .filter(|path| path.ends_with(&ending))
+        .collect();
+    match found[..] {
+        [path] => Ok(path.clone()),
+        [] => {
+            let near = near_paths(paths, asked);
+            let hint = if near.is_empty() {
+                String::new()
+            } else {
+                format!("; near: {}", near.join(", "))
+            };
+            Err(format!("no field of this scene is called so{hint}"))
+        }
+        _ => {
+            let list: Vec<&str> = found.iter().map(|path| path.as_str()).collect();
+            Err(format!(
+                "several fields end so, say which: {}",
+                list.join(", ")
+            ))
+        }
+    }
+}
+
+/// Paths one of whose endings looks like `asked`, at most five.
+fn near_paths(paths: &[String], asked: &str) -> Vec<String> {
+    let depth = asked.split('.').count();
+    let ending = |path: &str| {
+        let segments: Vec<&str> = path.split('.').collect();
+        segments[segments.len().saturating_sub(depth)..].join(".")
+    };
+    let mut near: Vec<(usize, &String)> = paths
+        .iter()
+        .map(|path| (distance(&ending(path), asked), path))
+        .filter(|(d, _)| *d <= 2 + asked.len() / 6)
+        .collect();
+    near.sort_by_key(|(d, _)| *d);
+    near.into_iter()
+        .take(5)
+        .map(|(_, path)| path.clone())
+        .collect()
+}
+
+/// Names that look like `asked`, the nearest first; names further than about a third of the letters are left out.
+pub fn near_names<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+    let limit = 1 + asked.chars().count() / 3;
+    let mut near: Vec<(usize, &str)> = names
+        .into_iter()
+        .map(|name| (distance(name, asked), name))
+        .filter(|(d, _)| *d <= limit)
+        .collect();
+    near.sort_by_key(|(d, _)| *d);
+    near.into_iter().map(|(_, name)| name).collect()
+}
+
+/// Edit distance in characters, upper and lower case the same.
+fn distance(a: &str, b: &str) -> usize {
+    let [a, b] = [a, b].map(|s| s.to_lowercase().chars().collect::<Vec<_>>());
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// Texts to try for a value: as given when it is one RON value, then as a string.
+fn spellings(value: &str) -> Vec<String> {
+    let quoted = format!("\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\""));
+    // Anything around the value, as a comment, could swallow what follows in the file.
+    let alone = SpanTree::scan(value).is_ok_and(|tree| tree.root().span == (0..value.len()));
+    if alone {
+        vec![value.to_owned(), quoted]
+    } else {
+        vec![quoted]
+    }
+}
+
+/// The text with the value at `path` replaced, or inserted where the text leaves it to its default.
+fn replace(text: &str, path: &str, value: &str) -> Result<String, String> {
+    let tree = SpanTree::scan(text).map_err(|e| e.to_string())?;
+    let (node, missing) = tree.deepest(path);
+    let [first, inner @ ..] = &missing[..] else {
+        return Ok(format!(
+            "{}{value}{}",
+            &text[..node.span.start],
+            &text[node.span.end..]
+        ));
+    };
+    let NodeKind::Struct { open, .. } = node.content().kind else {
+        return Err(format!(
+            "{path} has its default; set the whole of {}",
+            outer(path, missing.len())
+        ));
+    };
+    if missing
+        .iter()
+        .any(|segment| segment.parse::<usize>().is_ok())
+    {
+        let whole = missing
+            .iter()
+            .position(|s| s.parse::<usize>().is_ok())
+            .unwrap_or(0);
+        return Err(format!(
+            "{path} has its default; set the whole of {}",
+            outer(path, missing.len() - whole)
+        ));
+    }
+    let nested = inner.iter().rev().fold(value.to_owned(), |value, field| {
+        format!("({field}: {value})")
+    });
+    Ok(format!(
+        "{}{first}: {nested}, {}",
+        &text[..open],
+        &text[open..]
+    ))
+}
+
+/// `path` without its last `count` segments.
+fn outer(path: &str, count: usize) -> String {
+    let segments: Vec<&str> = path.split('.').collect();
+    segments[..segments.len().saturating_sub(count)].join(".")
+}

@@ -1,0 +1,112 @@
+//! What a run writes.
+
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
+
+/// Fields, plots and probes of a run.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// How often the fields are written; the first and the last state always are, unless `Never`.
+    #[serde(default)]
+    pub fields_every: FieldsEvery,
+    /// Pictures beside the numbers.
+    #[serde(default)]
+    pub plots: Vec<Plot>,
+    /// Points followed in `history.csv`, by name.
+    #[serde(default)]
+    pub probes: IndexMap<String, Probe>,
+}
+
+/// Distance between two written fields.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum FieldsEvery {
+    /// Every so many accepted steps \[-\].
+    Steps(usize),
+    /// The first accepted step at or after every multiple of this time \[s\].
+    Interval(f64),
+    /// No fields.
+    Never,
+}
+
+impl Default for FieldsEvery {
+    fn default() -> Self {
+        FieldsEvery::Steps(10)
+    }
+}
+
+/// One picture, an SVG file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Plot {
+    /// Energies and dissipations over time.
+    Energy,
+    /// The deformed bodies at the end, coloured by the von Mises stress.
+    Deformed,
+    /// The deformed bodies at the first accepted step at or after a time \[s\].
+    DeformedAt(f64),
+    /// Force components of an interface or a motion over time.
+    Force(String),
+    /// Moment components of an interface or a motion over time.
+    Moment(String),
+    /// All quantities of a probe over time.
+    Probe(String),
+}
+
+/// Node followed over time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Probe {
+    /// Body of the node.
+    pub body: String,
+    /// The node nearest to this reference position is taken \[m\].
+    pub node: [f64; 3],
+    /// What is written.
+    pub quantities: Vec<Quantity>,
+}
+
+/// Quantity at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "snake_case")]
+pub enum Quantity {
+    /// Displacement from the reference position \[m\], columns `displacement.x`, `.y`, `.z`.
+    Displacement,
+    /// Velocity \[m/s\], columns `velocity.x`, `.y`, `.z`.
+    Velocity,
+    /// Contact force on the node \[N\], columns `contact_force.x`, `.y`, `.z`.
+    ContactForce,
+    /// Von Mises stress, mean over the elements at the node \[Pa\], column `von_mises`.
+    VonMises,
+}
+
+impl Quantity {
+    /// Name in a scene and in the header of `history.csv`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Quantity::Displacement => "displacement",
+            Quantity::Velocity => "velocity",
+            Quantity::ContactForce => "contact_force",
+            Quantity::VonMises => "von_mises",
+        }
+    }
+
+    /// Name with unit, for axes.
+    pub fn label(self) -> String {
+        let (name, unit) = match self {
+            Quantity::Displacement => ("Displacement", "m"),
+            Quantity::Velocity => ("Velocity", "m/s"),
+            Quantity::ContactForce => ("Contact force", "N"),
+            Quantity::VonMises => ("Von Mises stress", "Pa"),
+        };
+        format!("{name} [{unit}]")
+    }
+
+    /// Number of columns: 3 for a vector, 1 for a scalar.
+    pub fn components(self) -> usize {
+        match self {
+            Quantity::VonMises => 1,
+            _ => 3,
+        }
+    }
+}

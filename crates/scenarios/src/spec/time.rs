@@ -1,0 +1,95 @@
+//! Time stepping, damping, mass and solver limits.
+
+use serde::{Deserialize, Serialize};
+
+/// Duration, step and scheme [Feng2007, eq. 38-41].
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Time {
+    /// End \[s\]; the start is 0.
+    pub end: f64,
+    /// Step \[s\].
+    pub dt: f64,
+    /// Weight of the new velocity in the displacement update \[-\], 0.5 (trapezoid) to 1 (backward Euler).
+    #[serde(default = "half")]
+    pub theta: f64,
+    /// Weight of the new internal forces in the balance \[-\], 0.5 to 1.
+    #[serde(default = "half")]
+    pub xi: f64,
+    /// Where the contact law acts.
+    #[serde(default)]
+    pub contact: ContactLevel,
+    /// With mass or without.
+    #[serde(default)]
+    pub inertia: Inertia,
+    /// A step is never cut below this \[s\]; the stepper's own limit when absent.
+    #[serde(default)]
+    pub min_dt: Option<f64>,
+}
+
+fn half() -> f64 {
+    0.5
+}
+
+/// Level of the contact law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum ContactLevel {
+    /// No penetration at the end of the step (the papers' choice).
+    #[default]
+    Position,
+    /// Velocity after the step against the velocity before it, with restitution (Moreau-Jean).
+    Velocity,
+}
+
+/// Inertia of the bodies.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Inertia {
+    /// Masses count.
+    #[default]
+    Dynamic,
+    /// A sequence of equilibria: no mass, no velocity.
+    QuasiStatic,
+}
+
+/// Mass matrix.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum MassKind {
+    /// From the shape functions.
+    #[default]
+    Consistent,
+    /// Row sums on the diagonal.
+    Lumped,
+}
+
+/// Damping matrix `A = mass M + stiffness K`, K at the reference state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rayleigh {
+    /// Factor of the mass matrix \[1/s\].
+    #[serde(default)]
+    pub mass: f64,
+    /// Factor of the stiffness matrix \[s\].
+    #[serde(default)]
+    pub stiffness: f64,
+}
+
+/// Tolerances and limits. What is absent is the solver's own default.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Solver {
+    /// Relative error of the contact law at which its solution is accepted \[-\].
+    #[serde(default)]
+    pub contact_tolerance: Option<f64>,
+    /// Iterations of one contact solve \[-\].
+    #[serde(default)]
+    pub max_contact_iterations: Option<usize>,
+    /// Relative residual of the equations of motion at which a step is accepted \[-\].
+    #[serde(default)]
+    pub newton_tolerance: Option<f64>,
+    /// Newton iterations of one step before it is cut \[-\].
+    #[serde(default)]
+    pub max_newton: Option<usize>,
+}
