@@ -9,6 +9,9 @@ use crate::delassus::Delassus;
 use crate::error::ContactError;
 use crate::problem::ContactProblem;
 
+/// Numbers of `M^-1 H` that are held at a time.
+const BATCH: usize = 1 << 22;
+
 /// A sparse matrix as a list of entries; entries at the same place are summed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseEntries {
@@ -61,17 +64,45 @@ impl GlobalProblem {
         let h = sparse(&self.h, "H")?;
         let failed = |reason: String| ContactError::Factorization { size: n, reason };
         let lu = m.sp_lu().map_err(|e| failed(format!("{e:?}")))?;
-        let mut right = h.to_dense();
-        right.resize_with(n, size + 1, |i, _| self.f[i]);
-        lu.solve_in_place(&mut right);
-        if right.col_iter().any(|c| c.iter().any(|x| !x.is_finite())) {
-            return Err(failed("it is singular".to_owned()));
+        let mut q = self.w.clone();
+        let mut entries = Vec::new();
+        // Some columns at a time: H is sparse, M^-1 H is not.
+        let batch = (BATCH / n.max(1)).clamp(1, size + 1);
+        let mut first = 0;
+        while first <= size {
+            let count = batch.min(size + 1 - first);
+            let mut right = Mat::<f64>::zeros(n, count);
+            for k in 0..count {
+                self.fill_column(&h, first + k, right.col_as_slice_mut(k));
+            }
+            lu.solve_in_place(&mut right);
+            if right.col_iter().any(|c| c.iter().any(|x| !x.is_finite())) {
+                return Err(failed("it is singular".to_owned()));
+            }
+            let product: Mat<f64> = h.transpose() * &right;
+            for k in 0..count {
+                let column = product.col_as_slice(k);
+                if first + k == size {
+                    q.iter_mut().zip(column).for_each(|(q, x)| *q += x);
+                } else {
+                    entries.extend(column.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (i, first + k, x)));
+                }
+            }
+            first += count;
         }
-        let product = h.transpose() * &right;
-        let q = (0..size).map(|i| product[(i, size)] + self.w[i]).collect();
-        let mut w: Mat<f64> = product;
-        w.resize_with(size, size, |_, _| 0.0);
-        ContactProblem::new(Delassus::Dense(w).compressed(contacts, self.cone.dim()), q, self.mu.clone(), self.cone)
+        let w = Delassus::from_entries(contacts, self.cone.dim(), &entries)?;
+        ContactProblem::new(w, q, self.mu.clone(), self.cone)
+    }
+
+    /// Column `j` of `[H, f]`.
+    fn fill_column(&self, h: &SparseColMat<usize, f64>, j: usize, out: &mut [f64]) {
+        if j == h.ncols() {
+            out.copy_from_slice(&self.f);
+            return;
+        }
+        for (i, x) in h.row_idx_of_col(j).zip(h.val_of_col(j)) {
+            out[i] = *x;
+        }
     }
 }
 

@@ -245,3 +245,6 @@ fn finish(truth: &Truth<'_>, r: &mut [f64], best: Iterate, settings: &SolveSetti
         refusal: None,
     }
 }
+
+#[cfg(test)]
+mod tests;

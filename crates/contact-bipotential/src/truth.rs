@@ -10,8 +10,10 @@ use crate::problem::ContactProblem;
 pub struct Errors {
     /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` [-]: the measure of Siconos. It mixes units.
     pub siconos: f64,
-    /// The same with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance `w_c`
-    /// (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` [-]. It does not depend on units.
+    /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance
+    /// `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` [-]. It does not depend on units, and reactions that
+    /// run away in a problem without solution do not make it small. Only where `F` is as small as the rounding of `W r`
+    /// makes it anyway does `|r|` count in the denominator.
     pub scale_free: f64,
     /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm [-].
     pub gap: f64,
@@ -86,7 +88,7 @@ impl<'a> Truth<'a> {
             raw.add(mu, &scaled(&rc, k), &scaled(&uc, k), &scaled(&qc, k));
             free.add(mu, &scaled(&rc, e * root), &scaled(&uc, e / root), &scaled(&qc, e / root));
         }
-        let errors = Errors { siconos: raw.error(), scale_free: free.error(), gap: free.gap() };
+        let errors = Errors { siconos: raw.error(), scale_free: free.strict_error(), gap: free.gap() };
         if errors.worst().is_finite() { errors } else { Errors::WORST }
     }
 
@@ -147,6 +149,11 @@ pub fn errors(problem: &ContactProblem, r: &[f64]) -> Errors {
     Truth::new(problem).evaluate(r, &mut u)
 }
 
+/// Share of `|r|` that the rounding of `W r` may leave in `F`.
+const ROUNDING: f64 = 1e-14;
+/// `|r|` over `|q|` in the energy norm beyond which reactions are not large but running away.
+const RUNAWAY: f64 = 1e10;
+
 #[derive(Default)]
 struct Sums {
     f: f64,
@@ -170,6 +177,15 @@ impl Sums {
     fn error(&self) -> f64 {
         let size = self.q.max(self.r).max(self.u);
         if size > 0.0 { (self.f / size).sqrt() } else { 0.0 }
+    }
+
+    fn strict_error(&self) -> f64 {
+        let size = self.q.max(self.u);
+        let rounding = self.f <= ROUNDING * ROUNDING * self.r && self.r <= RUNAWAY * RUNAWAY * size;
+        if rounding || !(size > 0.0) {
+            return self.error();
+        }
+        (self.f / size).sqrt()
     }
 
     fn gap(&self) -> f64 {

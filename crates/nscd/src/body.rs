@@ -105,6 +105,11 @@ impl BodySystem {
         self.condensed.as_ref()
     }
 
+    /// Whether the body has unknowns that may come into contact.
+    pub(crate) fn has_candidates(&self) -> bool {
+        self.first_candidate < self.dofs.len()
+    }
+
     /// Whether the factor in use belongs to these weights.
     pub(crate) fn is_factored_for(&self, weights: Weights) -> bool {
         self.factored == Some(weights)
@@ -180,7 +185,7 @@ impl BodySystem {
     }
 
     /// The compliance of the candidate surface, from the trailing block of the factor.
-    pub(crate) fn compliance(&mut self, total_dofs: usize, counters: &mut Counters) -> Result<(), StepFailure> {
+    pub(crate) fn condense(&mut self, total_dofs: usize, counters: &mut Counters) -> Result<(), StepFailure> {
         if self.condensed.is_some() {
             return Ok(());
         }

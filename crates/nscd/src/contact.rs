@@ -1,7 +1,7 @@
 //! The contact side of a step: candidates, local variable, local problem, error of the law.
 
 use contact_bipotential::cone::project;
-use contact_bipotential::{Contact, ContactMap, ContactProblem, Cone, Delassus, SolveSettings, solve};
+use contact_bipotential::{CompliancePart, Contact, ContactMap, ContactProblem, Cone, Delassus, SolveSettings, solve};
 use faer::Mat;
 
 use crate::body::BodySystem;
@@ -50,6 +50,12 @@ impl ContactMemory {
                 self.forces[c.interface][cone * c.slave_index + i] = c.force[axis];
             }
         }
+    }
+
+    /// Rows of the contacts that have a force.
+    pub(crate) fn rows(&self) -> usize {
+        let pressed = |f: &Vec<f64>| f.chunks_exact(self.cone).filter(|r| r[self.cone - 1] > 0.0).count();
+        self.cone * self.forces.iter().map(pressed).sum::<usize>()
     }
 
     /// No contact has a force.
@@ -198,62 +204,81 @@ fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64])
     (0..map.contacts.len()).map(|k| near(k) || r[cone * k + cone - 1] > 0.0).collect()
 }
 
-/// Solves the contact problem of one iteration: the forces that, together with the residual, make
-/// the linearised bodies obey the contact law. Returns the contact force `H^T r`.
-pub(crate) fn solve_contacts(
-    frame: &StepFrame<'_>,
-    memory: &mut ContactMemory,
-    bodies: &mut [BodySystem],
-    trial: &mut Trial,
-    counters: &mut Counters,
-) -> Result<Vec<f64>, StepFailure> {
-    let (model, cone) = (frame.model, memory.cone);
-    let dofs = model.dof_count();
-    let mut z = vec![0.0; dofs];
-    let mut parts = Vec::with_capacity(bodies.len());
-    for body in bodies.iter_mut() {
-        body.compliance(dofs, counters)?;
-        body.free_surface(&mut z);
+/// The contact problem of one iteration: which forces, together with the residual, make the
+/// linearised bodies obey the contact law.
+#[derive(Debug)]
+pub(crate) struct LinearisedContact {
+    map: ContactMap,
+    problem: ContactProblem,
+    /// Warm start.
+    r: Vec<f64>,
+}
+
+impl LinearisedContact {
+    /// Condenses the bodies and selects the contacts that matter.
+    pub(crate) fn new(
+        frame: &StepFrame<'_>,
+        memory: &mut ContactMemory,
+        bodies: &mut [BodySystem],
+        trial: &Trial,
+        counters: &mut Counters,
+    ) -> Result<Self, StepFailure> {
+        let (model, cone) = (frame.model, memory.cone);
+        let mut z = vec![0.0; model.dof_count()];
+        for body in bodies.iter_mut().filter(|b| b.has_candidates()) {
+            body.condense(z.len(), counters)?;
+            body.free_surface(&mut z);
+        }
+        let mut free = vec![0.0; trial.x.len()];
+        trial.map.apply(&z, &mut free);
+        free.iter_mut().zip(&trial.x).for_each(|(f, x)| *f += x);
+        let keep = enters(model, &trial.map, cone, &free, &trial.r);
+        let map = filtered(&trial.map, |k, _| keep[k]);
+        let select = |all: &[f64]| -> Vec<f64> {
+            all.chunks_exact(cone).zip(&keep).filter(|(_, k)| **k).flat_map(|(c, _)| c.iter().copied()).collect()
+        };
+        let parts: Vec<&CompliancePart> = bodies.iter().filter_map(BodySystem::condensed).collect();
+        let mut w = Mat::zeros(map.row_count(), map.row_count());
+        map.delassus(&parts, &mut w);
+        memory.remember_stiffness(&map, &w);
+        let mu = map.contacts.iter().map(|c| model.interfaces[c.interface].mu).collect();
+        let problem = ContactProblem { w: Delassus::Dense(w), q: select(&free), mu, cone: map.cone() };
+        Ok(Self { r: select(&trial.r), map, problem })
     }
-    parts.extend(bodies.iter().filter_map(BodySystem::condensed));
-    let mut free = vec![0.0; trial.x.len()];
-    trial.map.apply(&z, &mut free);
-    free.iter_mut().zip(&trial.x).for_each(|(f, x)| *f += x);
-    let keep = enters(model, &trial.map, cone, &free, &trial.r);
-    let map = filtered(&trial.map, |k, _| keep[k]);
-    let select = |all: &[f64]| -> Vec<f64> {
-        all.chunks_exact(cone).zip(&keep).filter(|(_, k)| **k).flat_map(|(c, _)| c.iter().copied()).collect()
-    };
-    let mut r = select(&trial.r);
-    let mut w = Mat::zeros(r.len(), r.len());
-    map.delassus(&parts, &mut w);
-    memory.remember_stiffness(&map, &w);
-    let mu = map.contacts.iter().map(|c| model.interfaces[c.interface].mu).collect();
-    let problem = ContactProblem { w: Delassus::Dense(w), q: select(&free), mu, cone: map.cone() };
-    let settings = SolveSettings {
-        tolerance: 0.01 * model.settings.contact_tolerance,
-        max_iterations: model.settings.contact_iterations,
-        ..SolveSettings::default()
-    };
-    let outcome = solve(&problem, &mut r, &settings);
-    if std::env::var("DUMP").is_ok() && outcome.error_scale_free > 1e-9 { println!("W {:?} q {:?} r {:?} {:?}", problem.w, problem.q, r, outcome); }
-    counters.contact_solves += 1;
-    counters.contact_iterations += outcome.iterations as u64;
-    counters.contacts_max = counters.contacts_max.max(map.contacts.len() as u64);
-    if outcome.error.max(outcome.error_scale_free) > model.settings.contact_tolerance {
-        let errors = outcome.diagnostics.iter().enumerate();
-        let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map_or(0, |(k, _)| k);
-        return Err(StepFailure::Contact {
-            contacts: map.contacts.len(),
-            error: outcome.error_scale_free,
-            method: format!("{:?}", outcome.method),
-            contact: describe(model, &map, worst),
-        });
+
+    /// Solves it to the relative error `tolerance`, remembers the forces and returns `H^T r` [N].
+    pub(crate) fn solve(
+        mut self,
+        model: &Model,
+        tolerance: f64,
+        memory: &mut ContactMemory,
+        counters: &mut Counters,
+    ) -> Result<Vec<f64>, StepFailure> {
+        let settings = SolveSettings {
+            tolerance,
+            max_iterations: model.settings.contact_iterations,
+            ..SolveSettings::default()
+        };
+        let outcome = solve(&self.problem, &mut self.r, &settings);
+        if std::env::var("TRACE").is_ok() { println!("   solve tol {tolerance:.1e} it {} {:?} err {:.1e} {:.1e} n {}", outcome.iterations, outcome.method, outcome.error, outcome.error_scale_free, self.map.len()); }
+        counters.contact_solves += 1;
+        counters.contact_iterations += outcome.iterations as u64;
+        counters.contacts_max = counters.contacts_max.max(self.map.len() as u64);
+        if outcome.error.max(outcome.error_scale_free) > tolerance.max(model.settings.contact_tolerance) {
+            let errors = outcome.diagnostics.iter().enumerate();
+            let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map_or(0, |(k, _)| k);
+            return Err(StepFailure::Contact {
+                contacts: self.map.len(),
+                error: outcome.error_scale_free,
+                method: format!("{:?}", outcome.method),
+                contact: describe(model, &self.map, worst),
+            });
+        }
+        let mut force = vec![0.0; model.dof_count()];
+        self.map.apply_transpose(&self.r, &mut force);
+        memory.store(&self.map, &self.r);
+        Ok(force)
     }
-    let mut force = vec![0.0; dofs];
-    map.apply_transpose(&r, &mut force);
-    memory.store(&map, &r);
-    Ok(force)
 }
 
 impl ContactMemory {

@@ -24,12 +24,25 @@ pub(crate) struct Check {
     law: LawError,
     /// Error of the contact law relative to the largest contact force.
     pub(crate) contact_error: f64,
+    contact_tolerance: f64,
+    /// Whether prescribed dofs still have to move.
+    pending: bool,
 }
 
 impl Check {
     /// Residual relative to the largest force in play.
     pub(crate) fn relative_residual(&self) -> f64 {
         if self.scale > 0.0 { self.residual / self.scale } else { 0.0 }
+    }
+
+    /// Accuracy that the next contact solve needs [-]: a hundredth of what the iterate has, since
+    /// the lagged tangent and the turning normals leave more than that.
+    pub(crate) fn contact_accuracy(&self) -> f64 {
+        if self.pending {
+            return 1e-3;
+        }
+        let reached = self.relative_residual().max(self.contact_error);
+        (0.01 * reached).clamp(0.01 * self.contact_tolerance, 1e-2)
     }
 
     pub(crate) fn failure(&self, frame: &StepFrame<'_>, trial: &Trial) -> StepFailure {
@@ -57,7 +70,7 @@ pub(crate) struct Monitor {
 }
 
 impl Monitor {
-    pub(crate) fn new(bodies: &[BodySystem], model: &Model) -> Self {
+    pub(crate) fn new(bodies: &[BodySystem], model: &Model, contact_rows: usize) -> Self {
         let elements: usize = model.solid.blocks().iter().map(|b| b.element_count()).sum();
         let solves: f64 = bodies.iter().map(BodySystem::solve_cost).sum();
         let extent = model.solid.mesh().points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -65,7 +78,7 @@ impl Monitor {
             iteration: 0,
             norms: vec![0.0; bodies.len()],
             allowed: 0.0,
-            iteration_cost: elements as f64 * 1e-6 + solves,
+            iteration_cost: elements as f64 * 1e-6 + solves + contact_cost(contact_rows),
             extent,
             element_size: largest_element(model),
         }
@@ -105,6 +118,8 @@ impl Monitor {
             scale,
             law,
             contact_error,
+            contact_tolerance: settings.contact_tolerance,
+            pending: trial.pending.is_some(),
         };
         if std::env::var("TRACE").is_ok() { println!("  {} it {} norms {:.1e} {:.1e} allowed {:.1e} rates {:?} law {:.1e}", frame.now.time, self.iteration, self.norms[0], self.norms[self.norms.len()-1], self.allowed, stepper.bodies.iter().map(|b| b.contraction()).collect::<Vec<_>>(), check.contact_error); }
         self.iteration += 1;
@@ -152,6 +167,12 @@ impl Monitor {
         let fresh = 3.0 + frame.model.settings.lag * body.factor_cost() / self.iteration_cost;
         remaining > fresh
     }
+}
+
+/// Estimated seconds of one contact solve with so many rows: W and two factorizations.
+fn contact_cost(rows: usize) -> f64 {
+    let n = rows as f64;
+    n * n * 1e-8 + n.powi(3) * 4e-11
 }
 
 /// Longest edge of a bounding box of an element [m].

@@ -4,7 +4,7 @@ use contact_bipotential::{ContactMap, Detector};
 use fe_core::{ElementWorkspace, FeError, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
-use crate::contact::{ContactMemory, cone_of, filtered, local_variable, solve_contacts};
+use crate::contact::{ContactMemory, cone_of, filtered, local_variable, LinearisedContact};
 use crate::error::{NscdError, StepFailure};
 use crate::model::Model;
 use crate::monitor::Monitor;
@@ -111,7 +111,7 @@ impl<'m> Stepper<'m> {
         self.memory.restore(now);
         let frame = StepFrame::new(self.model, now, dt, self.initial_stiffness.as_ref());
         let mut trial = self.predict(&frame)?;
-        let mut monitor = Monitor::new(&self.bodies, self.model);
+        let mut monitor = Monitor::new(&self.bodies, self.model, self.memory.rows());
         loop {
             let check = monitor.check(self, &frame, &trial)?;
             if check.converged {
@@ -121,7 +121,7 @@ impl<'m> Stepper<'m> {
                 return Err(check.failure(&frame, &trial));
             }
             self.refresh_tangents(&frame, &trial, &monitor)?;
-            let correction = self.correction(&frame, &mut trial)?;
+            let correction = self.correction(&frame, &trial, check.contact_accuracy())?;
             self.apply(&frame, &mut trial, correction)?;
             self.counters.newton_iterations += 1;
         }
@@ -233,7 +233,7 @@ impl<'m> Stepper<'m> {
     }
 
     /// The correction of all displacements that balances the linearised bodies under the contact law.
-    fn correction(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) -> Result<Vec<f64>, StepFailure> {
+    fn correction(&mut self, frame: &StepFrame<'_>, trial: &Trial, tolerance: f64) -> Result<Vec<f64>, StepFailure> {
         let mut z = vec![0.0; trial.u.len()];
         let start = self.clock.seconds();
         let rhs = self.right_hand_side(frame, trial);
@@ -242,13 +242,17 @@ impl<'m> Stepper<'m> {
         let pressed = trial.r.iter().any(|r| *r != 0.0);
         if !pressed {
             self.substitute_back(None, &mut z)?;
-            if self.stays_open(frame, trial, &z) {
+            if self.stays_open(trial, &z) {
                 self.memory.clear();
                 return Ok(z);
             }
         }
         let start = self.clock.seconds();
-        let force = solve_contacts(frame, &mut self.memory, &mut self.bodies, trial, &mut self.counters)?;
+        let linearised =
+            LinearisedContact::new(frame, &mut self.memory, &mut self.bodies, trial, &mut self.counters)?;
+        self.book(Phase::Condensation, start);
+        let start = self.clock.seconds();
+        let force = linearised.solve(self.model, tolerance, &mut self.memory, &mut self.counters)?;
         self.book(Phase::Contact, start);
         self.substitute_back(Some(&force), &mut z)?;
         Ok(z)
@@ -274,11 +278,10 @@ impl<'m> Stepper<'m> {
     }
 
     /// Whether every candidate would stay open under the correction `z` alone.
-    fn stays_open(&self, frame: &StepFrame<'_>, trial: &Trial, z: &[f64]) -> bool {
+    fn stays_open(&self, trial: &Trial, z: &[f64]) -> bool {
         let cone = self.memory.cone;
         let mut moved = vec![0.0; trial.x.len()];
         trial.map.apply(z, &mut moved);
-        let _ = frame;
         (0..trial.map.contacts.len()).map(|k| cone * k + cone - 1).all(|n| trial.x[n] + moved[n] >= 0.0)
     }
 

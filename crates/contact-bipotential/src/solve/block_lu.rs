@@ -114,11 +114,7 @@ impl<const D: usize> BlockLu<D> {
             for (&j, u) in self.upper.columns[range.clone()].iter().zip(&self.u[range]) {
                 let target = &mut self.work[j as usize];
                 for a in 0..D {
-                    for m in 0..D {
-                        for b in 0..4 {
-                            target[a][b] = (-l[a][m]).mul_add(u[m][b], target[a][b]);
-                        }
-                    }
+                    target[a] = minus_row_times(target[a], &l[a], u);
                 }
             }
             self.l[at] = l;
@@ -222,6 +218,20 @@ impl<const D: usize> BlockLu<D> {
             }
         }
     }
+}
+
+/// `t - l U`: one row of a block, as one vector register.
+#[inline(always)]
+fn minus_row_times(t: [f64; 4], l: &[f64; 4], u: &Padded) -> [f64; 4] {
+    let fused = |t: [f64; 4], x: f64, u: &[f64; 4]| {
+        [
+            (-x).mul_add(u[0], t[0]),
+            (-x).mul_add(u[1], t[1]),
+            (-x).mul_add(u[2], t[2]),
+            (-x).mul_add(u[3], t[3]),
+        ]
+    };
+    fused(fused(fused(t, l[0], &u[0]), l[1], &u[1]), l[2], &u[2])
 }
 
 #[inline(always)]

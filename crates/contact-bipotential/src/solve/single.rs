@@ -76,12 +76,17 @@ impl<const D: usize> SingleContact<D> {
             *x /= size;
         }
         let mut s = self.solve_scaled(&unit, mu);
+        let ratio = size / self.scale;
         for x in &mut s.r {
-            // Two steps: size / scale alone may overflow where the reaction does not.
-            *x = *x * size / self.scale;
+            // A ratio out of range does not mean that the reaction is.
+            *x = if ratio.is_normal() { *x * ratio } else { *x * size / self.scale };
         }
+        let largest = max_abs(&s.r);
         if !s.r.iter().all(|x| x.is_finite()) {
             s = SingleSolution { r: [0.0; D], status: s.status, solved: false };
+        } else if largest < f64::MIN_POSITIVE {
+            // Too small to be held with all its digits.
+            s.solved = false;
         }
         s
     }
@@ -91,7 +96,9 @@ impl<const D: usize> SingleContact<D> {
         if D == 1 || mu == 0.0 {
             return self.frictionless(b);
         }
-        if let Some(r) = self.stuck(b, mu) {
+        if let Some(r) = self.stuck(b, mu)
+            && self.residual(&r, b, mu) <= SOLVED
+        {
             return SingleSolution { r, status: Status::Stick, solved: true };
         }
         let r = if D == 2 { self.slide_plane(b, mu) } else { self.slide_space(b, mu) };
@@ -106,10 +113,10 @@ impl<const D: usize> SingleContact<D> {
     fn frictionless(&self, b: &Vector<D>) -> SingleSolution<D> {
         let mut r = [0.0; D];
         let wnn = self.w[D - 1][D - 1];
-        let solved = wnn > 0.0;
-        if solved {
+        if wnn > 0.0 {
             r[D - 1] = -b[D - 1] / wnn;
         }
+        let solved = self.residual(&r, b, 0.0) <= SOLVED;
         let status = if tangential_norm(&affine(&self.w, &r, b)) == 0.0 { Status::Stick } else { Status::Slip };
         SingleSolution { r, status, solved }
     }
@@ -182,7 +189,9 @@ impl<const D: usize> SingleContact<D> {
         let u = affine(&self.w, r, b);
         let f = natural_map(mu, 1.0, &u, r);
         let size = 1.0_f64.max(max_abs(r)).max(max_abs(&u));
-        max_abs(&f) / size
+        // The maximum forgets NaN, the sum does not.
+        let finite = (f.iter().sum::<f64>() + u.iter().sum::<f64>()).is_finite();
+        if finite { max_abs(&f) / size } else { f64::MAX }
     }
 
     /// Newton on `u_n = 0, r_t = -mu r_n direction` until it stops paying.
@@ -378,3 +387,6 @@ pub fn single_residual<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64, r:
     }
     contact.residual(&reaction, &unit, mu)
 }
+
+#[cfg(test)]
+mod tests;

@@ -15,9 +15,14 @@ fn full_and_abbreviated_paths_change_the_same_value() {
         assert_eq!(loaded.scene.interfaces["blocks"].mu, 0.5);
         assert_eq!(loaded.source.sets[0].path, "interfaces.blocks.mu");
     }
-    let scene = with(&["dt=1e-3", "refine=2", "law.G=1", "upper.mesh.cells=(1,2,3)"])
-        .unwrap()
-        .scene;
+    let scene = with(&[
+        "dt=1e-3",
+        "refine=2",
+        "law.G=6000",
+        "upper.mesh.cells=(1,2,3)",
+    ])
+    .unwrap()
+    .scene;
     assert_eq!((scene.time.dt, scene.refine), (1e-3, 2));
     assert_eq!(scene.size().elements, 16 * 16 * 8 + 2 * 4 * 6);
 }
