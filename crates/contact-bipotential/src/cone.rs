@@ -2,7 +2,7 @@
 //!
 //! `K = { r : |r_t| <= mu r_n }` holds the admissible reactions, its dual `K* = { v : v_n >= mu |v_t| }` the modified
 //! velocities `u + mu |u_t| n`. Contact and friction together say `r in K`, `u + mu |u_t| n in K*`, orthogonal
-//! [deSaxce1998]: one equation, `r = Proj_K(r - rho (u + mu |u_t| n))` for any `rho > 0` [Feng2007, eq. 28].
+//! \[deSaxce1998\]: one equation, `r = Proj_K(r - rho (u + mu |u_t| n))` for any `rho > 0` [Feng2007, eq. 28].
 
 use crate::error::ContactError;
 use crate::local::{Vector, dot, tangential_norm};
@@ -114,7 +114,7 @@ pub fn modified_velocity<const D: usize>(mu: f64, u: &Vector<D>) -> Vector<D> {
 /// Bi-potential gap `u.r + mu r_n |u_t|` [J, or the unit of `u.r`].
 ///
 /// For `r` in `K` and `u_n >= 0` it is never negative, and zero exactly where `u` and `r` obey contact and friction
-/// [deSaxce1998]; outside those sets the bi-potential is infinite, so check them too.
+/// \[deSaxce1998\]; outside those sets the bi-potential is infinite, so check them too.
 #[inline]
 pub fn bipotential_gap<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
     dot(&modified_velocity(mu, u), r)
@@ -142,7 +142,10 @@ mod tests {
         assert!(d[D - 1] >= mu * tangential_norm(&d) - 1e-13 * scale);
         let q = project(mu, &p);
         for i in 0..D {
-            assert!((p[i] - q[i]).abs() <= 1e-13 * scale, "projecting twice moves");
+            assert!(
+                (p[i] - q[i]).abs() <= 1e-13 * scale,
+                "projecting twice moves"
+            );
         }
         let expected = match region(mu, v) {
             Region::Inside => dot(&rest, &rest) == 0.0,

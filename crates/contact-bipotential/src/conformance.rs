@@ -7,6 +7,7 @@ use faer::Mat;
 use crate::cone::Cone;
 use crate::delassus::{BlockSparse, Delassus};
 use crate::law::Status;
+use crate::local::difference;
 use crate::problem::ContactProblem;
 use crate::solve::Outcome;
 use crate::truth::{Truth, errors};
@@ -39,7 +40,12 @@ pub fn half_space(side: usize, mu: f64, depth: f64, drag: f64) -> ContactProblem
             }
         }
     }
-    ContactProblem { w: Delassus::Dense(w), q, mu: vec![mu; n], cone: Cone::Spatial }
+    ContactProblem {
+        w: Delassus::Dense(w),
+        q,
+        mu: vec![mu; n],
+        cone: Cone::Spatial,
+    }
 }
 
 /// Displacement of the surface at distance `x` from a unit force, by components; within a cell, that of a uniform patch.
@@ -51,7 +57,11 @@ fn half_space_compliance(x: [f64; 2], h: f64) -> [[f64; 3]; 3] {
         // Mean over the disc with the area of the cell: 16 / (3 pi a), its directional part halved.
         let inverse = 16.0 / (3.0 * std::f64::consts::PI) / (h / std::f64::consts::PI.sqrt());
         let tangential = c * inverse * (1.0 - nu + 0.5 * nu);
-        return [[tangential, 0.0, 0.0], [0.0, tangential, 0.0], [0.0, 0.0, c * inverse * (1.0 - nu)]];
+        return [
+            [tangential, 0.0, 0.0],
+            [0.0, tangential, 0.0],
+            [0.0, 0.0, c * inverse * (1.0 - nu)],
+        ];
     }
     let e = [x[0] / r, x[1] / r];
     let coupling = 0.5 * c * (1.0 - 2.0 * nu) / r;
@@ -67,84 +77,100 @@ fn half_space_compliance(x: [f64; 2], h: f64) -> [[f64; 3]; 3] {
     w
 }
 
-/// A wall of rigid bricks, `rows` high and `columns` wide, four contacts a bed joint, pushed sideways at the top: hyperstatic.
+/// A wall of rigid bricks, `rows` high and `columns` wide, eight contacts under each: hyperstatic.
 ///
-/// `W = H^T M^-1 H` has rank at most `6 rows columns`, less than its size `3 * 8 * ..`; `push` is the sideways acceleration of
-/// the top row over gravity.
+/// Bricks 2 x 1 x 1 of mass 1 in stretcher bond. `W = H^T M^-1 H` has rank at most `6 rows columns`, a quarter of its
+/// size; `push` is the sideways acceleration of the top row over gravity.
 pub fn brick_wall(rows: usize, columns: usize, mu: f64, push: f64) -> ContactProblem {
-    let size = [2.0, 1.0, 1.0];
-    // Contacts: (lower brick or none, upper brick, lever arms, in x y z).
-    let mut contacts: Vec<(Option<usize>, usize, [f64; 3], [f64; 3])> = Vec::new();
+    let contacts = wall_contacts(rows, columns);
+    let n = contacts.len();
+    let mut blocks = Vec::new();
+    for (c, a) in contacts.iter().enumerate() {
+        for (d, b) in contacts.iter().enumerate() {
+            blocks.extend(shared_compliance(a, b).map(|block| (c, d, block.concat())));
+        }
+    }
+    let top = (rows * columns).saturating_sub(columns);
+    let acceleration = |body: Option<usize>| match body {
+        Some(b) => [if b >= top { push } else { 0.0 }, 0.0, -1.0],
+        None => [0.0; 3],
+    };
+    let relative = |a: &WallContact| difference(&acceleration(a.upper), &acceleration(a.lower));
+    let q = contacts.iter().flat_map(relative).collect();
+    let w = match BlockSparse::from_blocks(n, 3, &blocks) {
+        Ok(w) => Delassus::BlockSparse(w),
+        Err(_) => Delassus::Dense(Mat::identity(3 * n, 3 * n)),
+    };
+    ContactProblem {
+        w,
+        q,
+        mu: vec![mu; n],
+        cone: Cone::Spatial,
+    }
+}
+
+/// A contact of two bricks, or of a brick and the ground, with the lever arm on each in x, y (up), z.
+struct WallContact {
+    lower: Option<usize>,
+    upper: Option<usize>,
+    lower_arm: [f64; 3],
+    upper_arm: [f64; 3],
+}
+
+fn wall_contacts(rows: usize, columns: usize) -> Vec<WallContact> {
     let centre = |row: usize, column: usize| 2.0 * column as f64 + (row % 2) as f64;
+    let mut contacts = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
-            let upper = row * columns + column;
-            for side in [-0.5, 0.5] {
-                let half = centre(row, column) + side * size[0] / 2.0 * 2.0 - side;
-                let below = row.checked_sub(1).and_then(|r| (0..columns).find(|k| (centre(r, *k) - half).abs() < 0.75).map(|k| (r, k)));
+            for half in [centre(row, column) - 0.5, centre(row, column) + 0.5] {
+                let under = |r: usize| (0..columns).find(|k| (centre(r, *k) - half).abs() < 0.75);
+                let below = row.checked_sub(1).and_then(|r| Some((r, under(r)?)));
                 if row > 0 && below.is_none() {
                     continue;
                 }
-                for x in [half - 0.45, half + 0.45] {
-                    for z in [-0.5, 0.5] {
-                        let up = [x - centre(row, column), -0.5, z];
-                        let low = below.map_or([0.0; 3], |(r, k)| [x - centre(r, k), 0.5, z]);
-                        contacts.push((below.map(|(r, k)| r * columns + k), upper, low, up));
-                    }
+                for (x, z) in [(-0.45, -0.5), (-0.45, 0.5), (0.45, -0.5), (0.45, 0.5)] {
+                    let x = half + x;
+                    contacts.push(WallContact {
+                        lower: below.map(|(r, k)| r * columns + k),
+                        upper: Some(row * columns + column),
+                        lower_arm: below.map_or([0.0; 3], |(r, k)| [x - centre(r, k), 0.5, z]),
+                        upper_arm: [x - centre(row, column), -0.5, z],
+                    });
                 }
             }
         }
     }
-    wall_problem(&contacts, rows * columns, columns, mu, push)
+    contacts
 }
 
-type WallContact = (Option<usize>, usize, [f64; 3], [f64; 3]);
-
-fn wall_problem(contacts: &[WallContact], bricks: usize, columns: usize, mu: f64, push: f64) -> ContactProblem {
-    // Unit mass, inertia of the 2 x 1 x 1 brick; frame (t1, t2, n) = (x, z, y).
-    let inertia = [2.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0];
-    let axes = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
-    let row = |arm: &[f64; 3], axis: &[f64; 3]| {
-        let [a, b, c] = *arm;
-        let [x, y, z] = *axis;
-        [x, y, z, b * z - c * y, c * x - a * z, a * y - b * x]
-    };
-    let inverse = [1.0, 1.0, 1.0, 1.0 / inertia[0], 1.0 / inertia[1], 1.0 / inertia[2]];
-    let mut blocks = Vec::new();
-    let mut q = Vec::new();
-    for (c, a) in contacts.iter().enumerate() {
-        for (d, b) in contacts.iter().enumerate() {
-            let mut block = vec![0.0; 9];
-            let mut shared = false;
-            for (body_a, arm_a, sign_a) in [(a.0, &a.2, -1.0), (Some(a.1), &a.3, 1.0)] {
-                for (body_b, arm_b, sign_b) in [(b.0, &b.2, -1.0), (Some(b.1), &b.3, 1.0)] {
-                    if body_a.is_none() || body_a != body_b {
-                        continue;
-                    }
-                    shared = true;
-                    for i in 0..3 {
-                        for j in 0..3 {
-                            let (f, g) = (row(arm_a, &axes[i]), row(arm_b, &axes[j]));
-                            block[3 * i + j] += sign_a * sign_b * (0..6).map(|k| f[k] * inverse[k] * g[k]).sum::<f64>();
-                        }
-                    }
+/// What a unit reaction at `b` does to the velocity at `a`, in the frame `(x, z, up)`; `None` without a common brick.
+fn shared_compliance(a: &WallContact, b: &WallContact) -> Option<[[f64; 3]; 3]> {
+    const AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]];
+    const INVERSE_MASS: [f64; 6] = [1.0, 1.0, 1.0, 6.0, 2.4, 2.4];
+    let mut block = None;
+    for (body_a, arm_a, sign_a) in [(a.lower, &a.lower_arm, -1.0), (a.upper, &a.upper_arm, 1.0)] {
+        for (body_b, arm_b, sign_b) in [(b.lower, &b.lower_arm, -1.0), (b.upper, &b.upper_arm, 1.0)]
+        {
+            if body_a.is_none() || body_a != body_b {
+                continue;
+            }
+            let sum = block.get_or_insert([[0.0; 3]; 3]);
+            for i in 0..3 {
+                for j in 0..3 {
+                    let (f, g) = (wrench(arm_a, &AXES[i]), wrench(arm_b, &AXES[j]));
+                    let product: f64 = (0..6).map(|k| f[k] * INVERSE_MASS[k] * g[k]).sum();
+                    sum[i][j] += sign_a * sign_b * product;
                 }
             }
-            if shared {
-                blocks.push((c, d, block));
-            }
         }
-        let acceleration = |body: Option<usize>| {
-            let side = if body.is_some_and(|b| b + columns >= bricks) { push } else { 0.0 };
-            let down = if body.is_some() { -1.0 } else { 0.0 };
-            [side, 0.0, down]
-        };
-        let (low, up) = (acceleration(a.0), acceleration(Some(a.1)));
-        q.extend((0..3).map(|i| up[i] - low[i]));
     }
-    let n = contacts.len();
-    let w = BlockSparse::from_blocks(n, 3, &blocks).map_or_else(|_| Delassus::Dense(Mat::identity(3 * n, 3 * n)), Delassus::BlockSparse);
-    ContactProblem { w, q, mu: vec![mu; n], cone: Cone::Spatial }
+    block
+}
+
+/// Force and moment of a unit force along `axis` at `arm`.
+fn wrench(arm: &[f64; 3], axis: &[f64; 3]) -> [f64; 6] {
+    let ([a, b, c], [x, y, z]) = (*arm, *axis);
+    [x, y, z, b * z - c * y, c * x - a * z, a * y - b * x]
 }
 
 /// The same problem in other units: `W` times `factor_w`, `q` times `factor_q`.
@@ -160,26 +186,51 @@ pub fn scaled(problem: &ContactProblem, factor_w: f64, factor_q: f64) -> Contact
         w = w.compressed(problem.contacts(), problem.cone.dim());
     }
     let q = problem.q.iter().map(|x| x * factor_q).collect();
-    ContactProblem { w, q, mu: problem.mu.clone(), cone: problem.cone }
+    ContactProblem {
+        w,
+        q,
+        mu: problem.mu.clone(),
+        cone: problem.cone,
+    }
 }
 
 /// What any outcome must be, solved or not: finite, of the right length, and honest.
 ///
 /// # Errors
 /// What is wrong with it, in words.
-pub fn check_outcome(problem: &ContactProblem, r: &[f64], outcome: &Outcome, tolerance: f64) -> Result<(), String> {
+pub fn check_outcome(
+    problem: &ContactProblem,
+    r: &[f64],
+    outcome: &Outcome,
+    tolerance: f64,
+) -> Result<(), String> {
     if r.len() != problem.q.len() || outcome.u.len() != problem.q.len() {
-        return Err(format!("{} reactions and {} velocities for {} unknowns", r.len(), outcome.u.len(), problem.q.len()));
+        return Err(format!(
+            "{} reactions and {} velocities for {} unknowns",
+            r.len(),
+            outcome.u.len(),
+            problem.q.len()
+        ));
     }
-    if !r.iter().chain(&outcome.u).all(|x| x.is_finite()) || !outcome.error.is_finite() || !outcome.error_scale_free.is_finite() {
+    if !r.iter().chain(&outcome.u).all(|x| x.is_finite())
+        || !outcome.error.is_finite()
+        || !outcome.error_scale_free.is_finite()
+    {
         return Err("NaN or infinity".to_owned());
     }
     let truth = errors(problem, r);
     if outcome.is_converged() && truth.worst() > tolerance {
         return Err(format!("false success: {truth:?}"));
     }
-    if !outcome.is_converged() && outcome.refusal.is_none() && outcome.diagnostics.len() != problem.contacts() {
-        return Err(format!("{} diagnostics for {} contacts", outcome.diagnostics.len(), problem.contacts()));
+    if !outcome.is_converged()
+        && outcome.refusal.is_none()
+        && outcome.diagnostics.len() != problem.contacts()
+    {
+        return Err(format!(
+            "{} diagnostics for {} contacts",
+            outcome.diagnostics.len(),
+            problem.contacts()
+        ));
     }
     Ok(())
 }
@@ -197,9 +248,19 @@ pub fn check_law(problem: &ContactProblem, r: &[f64], tolerance: f64) -> Result<
     let (ru, uu) = (largest(r), largest(&u).max(largest(&problem.q)));
     for (c, diagnostic) in truth.diagnose(r, &u).iter().enumerate() {
         let (normal, gap) = (r[c * d + d - 1], u[c * d + d - 1]);
-        let slip = (c * d..c * d + d - 1).map(|i| u[i] * u[i]).sum::<f64>().sqrt();
-        let friction = (c * d..c * d + d - 1).map(|i| r[i] * r[i]).sum::<f64>().sqrt();
-        let fail = |what: &str| Err(format!("contact {c} {what}: {diagnostic:?}, r_n {normal:e}, u_n {gap:e}, slip {slip:e}"));
+        let slip = (c * d..c * d + d - 1)
+            .map(|i| u[i] * u[i])
+            .sum::<f64>()
+            .sqrt();
+        let friction = (c * d..c * d + d - 1)
+            .map(|i| r[i] * r[i])
+            .sum::<f64>()
+            .sqrt();
+        let fail = |what: &str| {
+            Err(format!(
+                "contact {c} {what}: {diagnostic:?}, r_n {normal:e}, u_n {gap:e}, slip {slip:e}"
+            ))
+        };
         if diagnostic.penetration > tolerance * uu {
             return fail("penetrates");
         }
@@ -213,7 +274,9 @@ pub fn check_law(problem: &ContactProblem, r: &[f64], tolerance: f64) -> Result<
         if slip * limit.abs() > tolerance * ru * uu {
             return fail("slides below its friction limit");
         }
-        if diagnostic.status == Status::Slip && slip * friction * (1.0 - diagnostic.misalignment.cos()) > tolerance * ru * uu {
+        if diagnostic.status == Status::Slip
+            && slip * friction * (1.0 - diagnostic.misalignment.cos()) > tolerance * ru * uu
+        {
             return fail("is not opposed by friction");
         }
     }

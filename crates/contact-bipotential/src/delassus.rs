@@ -46,17 +46,31 @@ impl BlockSparse {
     ///
     /// # Errors
     /// [`ContactError::Block`] outside of `contacts`, [`ContactError::Length`] for a block without `dim * dim` values.
-    pub fn from_blocks(contacts: usize, dim: usize, blocks: &[(usize, usize, Vec<f64>)]) -> Result<Self, ContactError> {
+    pub fn from_blocks(
+        contacts: usize,
+        dim: usize,
+        blocks: &[(usize, usize, Vec<f64>)],
+    ) -> Result<Self, ContactError> {
         let zero = vec![0.0; dim * dim];
-        let mut order: Vec<(usize, usize, &[f64])> = (0..contacts).map(|c| (c, c, zero.as_slice())).collect();
+        let mut order: Vec<(usize, usize, &[f64])> =
+            (0..contacts).map(|c| (c, c, zero.as_slice())).collect();
         for (row, column, values) in blocks {
             order.push((*column, *row, &zero));
             if *row >= contacts || *column >= contacts {
-                return Err(ContactError::Block { row: *row, column: *column, contacts });
+                return Err(ContactError::Block {
+                    row: *row,
+                    column: *column,
+                    contacts,
+                });
             }
             if values.len() != dim * dim {
                 let (found, expected) = (values.len(), dim * dim);
-                return Err(ContactError::Length { what: "block of W", contacts, found, expected });
+                return Err(ContactError::Length {
+                    what: "block of W",
+                    contacts,
+                    found,
+                    expected,
+                });
             }
             order.push((*row, *column, values));
         }
@@ -65,7 +79,12 @@ impl BlockSparse {
     }
 
     fn from_sorted(contacts: usize, dim: usize, blocks: &[(usize, usize, &[f64])]) -> Self {
-        let mut w = BlockSparse { dim, offsets: vec![0], columns: Vec::new(), values: Vec::new() };
+        let mut w = BlockSparse {
+            dim,
+            offsets: vec![0],
+            columns: Vec::new(),
+            values: Vec::new(),
+        };
         let mut last = None;
         for (row, column, values) in blocks {
             if last == Some((*row, *column)) {
@@ -92,10 +111,20 @@ impl BlockSparse {
     ///
     /// # Errors
     /// [`ContactError::Entry`] outside of the matrix.
-    pub fn from_entries(contacts: usize, dim: usize, entries: &[(usize, usize, f64)]) -> Result<Self, ContactError> {
+    pub fn from_entries(
+        contacts: usize,
+        dim: usize,
+        entries: &[(usize, usize, f64)],
+    ) -> Result<Self, ContactError> {
         let size = contacts * dim;
         if let Some(&(row, column, _)) = entries.iter().find(|e| e.0 >= size || e.1 >= size) {
-            return Err(ContactError::Entry { what: "W", row, column, rows: size, columns: size });
+            return Err(ContactError::Entry {
+                what: "W",
+                row,
+                column,
+                rows: size,
+                columns: size,
+            });
         }
         let mut places: Vec<(usize, usize)> = Vec::with_capacity(2 * entries.len());
         places.extend(entries.iter().map(|e| (e.0 / dim, e.1 / dim)));
@@ -104,7 +133,10 @@ impl BlockSparse {
         places.sort_unstable();
         places.dedup();
         let zero = vec![0.0; dim * dim];
-        let blocks: Vec<_> = places.iter().map(|&(r, c)| (r, c, zero.as_slice())).collect();
+        let blocks: Vec<_> = places
+            .iter()
+            .map(|&(r, c)| (r, c, zero.as_slice()))
+            .collect();
         let mut w = Self::from_sorted(contacts, dim, &blocks);
         for &(row, column, value) in entries {
             if let Ok(k) = places.binary_search(&(row / dim, column / dim)) {
@@ -147,7 +179,11 @@ impl BlockSparse {
         let (d, n) = (self.dim, self.contacts() * self.dim);
         let mut w = Mat::zeros(n, n);
         for c in 0..self.contacts() {
-            for (&column, block) in self.row(c).iter().zip(self.row_values(c).chunks_exact(d * d)) {
+            for (&column, block) in self
+                .row(c)
+                .iter()
+                .zip(self.row_values(c).chunks_exact(d * d))
+            {
                 for i in 0..d {
                     for j in 0..d {
                         w[(c * d + i, column as usize * d + j)] = block[i * d + j];
@@ -162,7 +198,11 @@ impl BlockSparse {
     #[inline(always)]
     pub(crate) fn row_times<const D: usize>(&self, c: usize, r: &[f64]) -> [f64; D] {
         let mut u = [0.0; D];
-        for (&column, block) in self.row(c).iter().zip(self.row_values(c).chunks_exact(D * D)) {
+        for (&column, block) in self
+            .row(c)
+            .iter()
+            .zip(self.row_values(c).chunks_exact(D * D))
+        {
             let x = &r[column as usize * D..column as usize * D + D];
             for i in 0..D {
                 for j in 0..D {
@@ -188,18 +228,34 @@ impl Delassus {
     ///
     /// # Errors
     /// [`ContactError::Entry`] outside of the matrix.
-    pub fn from_entries(contacts: usize, dim: usize, entries: &[(usize, usize, f64)]) -> Result<Self, ContactError> {
+    pub fn from_entries(
+        contacts: usize,
+        dim: usize,
+        entries: &[(usize, usize, f64)],
+    ) -> Result<Self, ContactError> {
         let w = BlockSparse::from_entries(contacts, dim, entries)?;
         let full = w.block_count() as f64 > DENSE_SHARE * (contacts * contacts) as f64;
-        Ok(if full { Delassus::Dense(w.to_dense()) } else { Delassus::BlockSparse(w) })
+        Ok(if full {
+            Delassus::Dense(w.to_dense())
+        } else {
+            Delassus::BlockSparse(w)
+        })
     }
 
     /// The storage that suits the fill: a dense matrix with few non-zero blocks becomes block-sparse.
     pub fn compressed(self, contacts: usize, dim: usize) -> Self {
-        let Delassus::Dense(w) = &self else { return self };
+        let Delassus::Dense(w) = &self else {
+            return self;
+        };
         let mut entries = Vec::new();
         for j in 0..w.ncols() {
-            entries.extend(w.col_as_slice(j).iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (i, j, x)));
+            entries.extend(
+                w.col_as_slice(j)
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, x)| **x != 0.0)
+                    .map(|(i, &x)| (i, j, x)),
+            );
         }
         Self::from_entries(contacts, dim, &entries).unwrap_or(self)
     }
@@ -338,13 +394,17 @@ mod tests {
         let sparse = BlockSparse::from_entries(4, 3, &entries).unwrap();
         assert_eq!(sparse.block_count(), 8);
         let dense = sparse.to_dense();
-        let r: Vec<f64> = (0..n).map(|i| if i % 5 == 0 { 0.0 } else { i as f64 - 4.0 }).collect();
+        let r: Vec<f64> = (0..n)
+            .map(|i| if i % 5 == 0 { 0.0 } else { i as f64 - 4.0 })
+            .collect();
         let all = [
             Delassus::Dense(dense.clone()),
             Delassus::BlockSparse(sparse),
             Delassus::Operator(Arc::new(Hidden(dense.clone()))),
         ];
-        let expected: Vec<f64> = (0..n).map(|i| (0..n).map(|j| dense[(i, j)] * r[j]).sum()).collect();
+        let expected: Vec<f64> = (0..n)
+            .map(|i| (0..n).map(|j| dense[(i, j)] * r[j]).sum())
+            .collect();
         for w in &all {
             let mut u = vec![f64::NAN; n];
             w.times(&r, &mut u);

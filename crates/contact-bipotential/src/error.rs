@@ -25,7 +25,9 @@ pub enum ContactError {
         expected: usize,
     },
     /// A number that is NaN or infinite.
-    #[error("{what} holds {value} at entry {entry} (contact {contact}): every number must be finite")]
+    #[error(
+        "{what} holds {value} at entry {entry} (contact {contact}): every number must be finite"
+    )]
     NotFinite {
         /// Name of the array.
         what: &'static str,
@@ -45,7 +47,9 @@ pub enum ContactError {
         mu: f64,
     },
     /// A contact that does not move when it is pushed.
-    #[error("contact {contact} has compliance {value:e} along its normal: pushing must move it away, so W_nn > 0")]
+    #[error(
+        "contact {contact} has compliance {value:e} along its normal: pushing must move it away, so W_nn > 0"
+    )]
     Compliance {
         /// Contact.
         contact: usize,
@@ -77,7 +81,9 @@ pub enum ContactError {
         columns: usize,
     },
     /// The mass or stiffness matrix of the global form cannot be factorised.
-    #[error("the matrix M of the global form ({size} unknowns) cannot be factorised: {reason}; constrain every rigid motion")]
+    #[error(
+        "the matrix M of the global form ({size} unknowns) cannot be factorised: {reason}; constrain every rigid motion"
+    )]
     Factorization {
         /// Number of unknowns.
         size: usize,

@@ -3,7 +3,7 @@
 /// Rows `t1`, `t2`, `n` of a local frame.
 pub type Frame = [[f64; 3]; 3];
 
-/// A right-handed orthonormal frame on the unit normal `n`; a smooth function of `n` but across `n_z = 0` [Duff2017].
+/// A right-handed orthonormal frame on the unit normal `n`; a smooth function of `n` but across `n_z = 0` \[Duff2017\].
 pub fn frame_from_normal(n: [f64; 3]) -> Frame {
     let sign = 1.0_f64.copysign(n[2]);
     let a = -1.0 / (sign + n[2]);
@@ -45,7 +45,11 @@ mod tests {
             }
         }
         let [a, b, c] = f;
-        let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+        let cross = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
         for k in 0..3 {
             assert!((cross[k] - c[k]).abs() < 1e-14, "{f:?}");
         }

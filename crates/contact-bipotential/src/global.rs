@@ -57,7 +57,12 @@ impl GlobalProblem {
             ("w", self.w.len(), size),
         ] {
             if found != expected {
-                return Err(ContactError::Length { what, contacts, found, expected });
+                return Err(ContactError::Length {
+                    what,
+                    contacts,
+                    found,
+                    expected,
+                });
             }
         }
         let m = sparse(&self.m, "M")?;
@@ -85,7 +90,13 @@ impl GlobalProblem {
                 if first + k == size {
                     q.iter_mut().zip(column).for_each(|(q, x)| *q += x);
                 } else {
-                    entries.extend(column.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(i, &x)| (i, first + k, x)));
+                    entries.extend(
+                        column
+                            .iter()
+                            .enumerate()
+                            .filter(|(_, x)| **x != 0.0)
+                            .map(|(i, &x)| (i, first + k, x)),
+                    );
                 }
             }
             first += count;
@@ -109,11 +120,25 @@ impl GlobalProblem {
 fn sparse(a: &SparseEntries, what: &'static str) -> Result<SparseColMat<usize, f64>, ContactError> {
     let (rows, columns) = (a.rows, a.columns);
     if let Some(&(row, column, _)) = a.entries.iter().find(|e| e.0 >= rows || e.1 >= columns) {
-        return Err(ContactError::Entry { what, row, column, rows, columns });
+        return Err(ContactError::Entry {
+            what,
+            row,
+            column,
+            rows,
+            columns,
+        });
     }
-    let list: Vec<_> = a.entries.iter().map(|&(i, j, x)| Triplet::new(i, j, x)).collect();
-    SparseColMat::try_new_from_triplets(rows, columns, &list)
-        .map_err(|e| ContactError::Factorization { size: rows, reason: format!("{what}: {e:?}") })
+    let list: Vec<_> = a
+        .entries
+        .iter()
+        .map(|&(i, j, x)| Triplet::new(i, j, x))
+        .collect();
+    SparseColMat::try_new_from_triplets(rows, columns, &list).map_err(|e| {
+        ContactError::Factorization {
+            size: rows,
+            reason: format!("{what}: {e:?}"),
+        }
+    })
 }
 
 #[cfg(test)]
@@ -123,8 +148,16 @@ mod tests {
     fn two_masses(m: [[f64; 2]; 2]) -> GlobalProblem {
         let entries = (0..4).map(|k| (k / 2, k % 2, m[k / 2][k % 2])).collect();
         GlobalProblem {
-            m: SparseEntries { rows: 2, columns: 2, entries },
-            h: SparseEntries { rows: 2, columns: 2, entries: vec![(0, 0, 1.0), (1, 0, -1.0), (1, 1, 2.0)] },
+            m: SparseEntries {
+                rows: 2,
+                columns: 2,
+                entries,
+            },
+            h: SparseEntries {
+                rows: 2,
+                columns: 2,
+                entries: vec![(0, 0, 1.0), (1, 0, -1.0), (1, 1, 2.0)],
+            },
             f: vec![1.0, 3.0],
             w: vec![0.5, -1.0],
             mu: vec![0.0; 2],
@@ -149,12 +182,25 @@ mod tests {
     #[test]
     fn what_cannot_be_reduced_says_why() {
         let singular = two_masses([[1.0, 2.0], [2.0, 4.0]]).reduce().unwrap_err();
-        assert!(matches!(singular, ContactError::Factorization { size: 2, .. }), "{singular}");
+        assert!(
+            matches!(singular, ContactError::Factorization { size: 2, .. }),
+            "{singular}"
+        );
         let mut short = two_masses([[2.0, 1.0], [1.0, 3.0]]);
         short.w.pop();
-        assert!(matches!(short.reduce(), Err(ContactError::Length { what: "w", .. })));
+        assert!(matches!(
+            short.reduce(),
+            Err(ContactError::Length { what: "w", .. })
+        ));
         let mut outside = two_masses([[2.0, 1.0], [1.0, 3.0]]);
         outside.h.entries.push((2, 0, 1.0));
-        assert!(matches!(outside.reduce(), Err(ContactError::Entry { what: "H", row: 2, .. })));
+        assert!(matches!(
+            outside.reduce(),
+            Err(ContactError::Entry {
+                what: "H",
+                row: 2,
+                ..
+            })
+        ));
     }
 }

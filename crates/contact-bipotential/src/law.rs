@@ -45,18 +45,23 @@ fn candidate<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) ->
 pub struct ContactDiagnostic {
     /// Status by the natural map.
     pub status: Status,
-    /// `max(0, -u_n)`, unit of `u`.
+    /// `max(0, -u_n)`, in the unit of `u` \[m, or m/s\].
     pub penetration: f64,
-    /// `mu r_n - |r_t|`, unit of `r`: negative where the reaction leaves the cone.
+    /// `mu r_n - |r_t|`, in the unit of `r` \[N, or N s\]: negative where the reaction leaves the cone.
     pub cone_slack: f64,
-    /// Angle between the friction force and the direction against sliding [rad]; 0 where either vanishes.
+    /// Angle between the friction force and the direction against sliding \[rad\]; 0 where either vanishes.
     pub misalignment: f64,
-    /// Share of this contact in the scale-free error.
+    /// Share of this contact in the scale-free error \[-\].
     pub error: f64,
 }
 
 /// Diagnoses one contact; `rho` is its compliance scale, `1 / mean diagonal of W_cc`.
-pub fn diagnose<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> ContactDiagnostic {
+pub fn diagnose<const D: usize>(
+    mu: f64,
+    rho: f64,
+    u: &Vector<D>,
+    r: &Vector<D>,
+) -> ContactDiagnostic {
     let (ut, rt) = (tangential_norm(u), tangential_norm(r));
     let product = ut * rt;
     let misalignment = if product > 0.0 {
@@ -69,7 +74,11 @@ pub fn diagnose<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>)
         status,
         penetration: (-u[D - 1]).max(0.0),
         cone_slack: mu * r[D - 1] - rt,
-        misalignment: if status == Status::Slip { misalignment } else { 0.0 },
+        misalignment: if status == Status::Slip {
+            misalignment
+        } else {
+            0.0
+        },
         error: 0.0,
     }
 }
@@ -100,11 +109,20 @@ mod tests {
     #[test]
     fn each_violation_shows_where_it_belongs() {
         let mu = 0.5;
-        assert_eq!(diagnose(mu, 1.0, &[0.0, 0.0, -0.25], &[0.0, 0.0, 1.0]).penetration, 0.25);
-        assert_eq!(diagnose(mu, 1.0, &[0.0, 0.0, 0.0], &[1.0, 0.0, 1.0]).cone_slack, -0.5);
+        assert_eq!(
+            diagnose(mu, 1.0, &[0.0, 0.0, -0.25], &[0.0, 0.0, 1.0]).penetration,
+            0.25
+        );
+        assert_eq!(
+            diagnose(mu, 1.0, &[0.0, 0.0, 0.0], &[1.0, 0.0, 1.0]).cone_slack,
+            -0.5
+        );
         let turned = diagnose(mu, 1.0, &[1.0, 0.0, 0.0], &[0.0, 0.5, 1.0]);
         assert!((turned.misalignment - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
-        for (u, r) in [([0.0, 0.0, -0.25], [0.0, 0.0, 1.0]), ([1.0, 0.0, 0.0], [0.0, 0.5, 1.0])] {
+        for (u, r) in [
+            ([0.0, 0.0, -0.25], [0.0, 0.0, 1.0]),
+            ([1.0, 0.0, 0.0], [0.0, 0.5, 1.0]),
+        ] {
             let f = natural_map(mu, 1.0, &u, &r);
             assert!(f.iter().any(|x| x.abs() > 0.1));
         }

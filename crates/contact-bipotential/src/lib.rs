@@ -33,5 +33,6 @@ pub use kinematics::{CompliancePart, Contact, ContactMap, Stencil};
 pub use law::{ContactDiagnostic, Status};
 pub use obstacle::{Obstacle, Shape};
 pub use problem::ContactProblem;
+pub use solve::sequence::SequenceSolver;
 pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve};
 pub use truth::{Errors, errors};

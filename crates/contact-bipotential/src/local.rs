@@ -122,19 +122,43 @@ pub fn solve_small<const D: usize>(a: &Matrix<D>, b: &Vector<D>) -> Option<Vecto
     b.iter().all(|x| x.is_finite()).then_some(b)
 }
 
-/// Inverse by elimination; `None` when singular.
+/// Inverse by elimination with partial pivoting; `None` when singular.
 #[inline]
 pub fn inverse<const D: usize>(a: &Matrix<D>) -> Option<Matrix<D>> {
-    let mut columns = [[0.0; D]; D];
-    for j in 0..D {
-        let mut e = [0.0; D];
-        e[j] = 1.0;
-        let x = solve_small(a, &e)?;
+    let (mut a, mut x) = (*a, [[0.0; D]; D]);
+    for i in 0..D {
+        x[i][i] = 1.0;
+    }
+    for k in 0..D {
+        let mut p = k;
+        for i in k + 1..D {
+            if a[i][k].abs() > a[p][k].abs() {
+                p = i;
+            }
+        }
+        if a[p][k] == 0.0 || !a[p][k].is_finite() {
+            return None;
+        }
+        a.swap(k, p);
+        x.swap(k, p);
+        let inv = 1.0 / a[k][k];
         for i in 0..D {
-            columns[i][j] = x[i];
+            if i == k {
+                continue;
+            }
+            let l = a[i][k] * inv;
+            for j in 0..D {
+                a[i][j] -= l * a[k][j];
+                x[i][j] -= l * x[k][j];
+            }
+        }
+        for j in 0..D {
+            a[k][j] *= inv;
+            x[k][j] *= inv;
         }
     }
-    Some(columns)
+    let sum: f64 = x.iter().flatten().sum();
+    sum.is_finite().then_some(x)
 }
 
 /// The `D` entries of contact `c` in a flat vector.

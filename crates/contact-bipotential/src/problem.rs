@@ -8,7 +8,7 @@ use crate::local::trace;
 /// Find `r` with `u = W r + q`, `r` in `K`, `u + mu |u_t| n` in `K*`, orthogonal.
 ///
 /// Flat vectors hold `cone.dim()` entries a contact, normal last; `r_n >= 0` is compression, `u_n >= 0` separation.
-/// `u` may be a gap [m] with `r` a force, or a velocity with `r` an impulse: the solvers know no unit.
+/// `u` may be a gap \[m\] with `r` a force, or a velocity with `r` an impulse: the solvers know no unit.
 #[derive(Debug, Clone)]
 pub struct ContactProblem {
     /// Delassus matrix, unit of `u` over unit of `r`.
@@ -51,7 +51,7 @@ impl ContactProblem {
                 return Err(ContactError::Friction { contact, mu });
             }
             let value = self.normal_compliance(contact);
-            if !(value >= 0.0) {
+            if value < 0.0 || value.is_nan() {
                 return Err(ContactError::Compliance { contact, value });
             }
         }
@@ -63,7 +63,12 @@ impl ContactProblem {
             if found == expected {
                 Ok(())
             } else {
-                Err(ContactError::Length { what, contacts, found, expected })
+                Err(ContactError::Length {
+                    what,
+                    contacts,
+                    found,
+                    expected,
+                })
             }
         };
         length("q", self.q.len())?;
@@ -72,7 +77,12 @@ impl ContactProblem {
             Delassus::Dense(w) => length("W (columns)", w.ncols()),
             Delassus::BlockSparse(w) if w.dim() != self.cone.dim() => {
                 let (found, expected) = (w.dim(), self.cone.dim());
-                Err(ContactError::Length { what: "row of a block of W", contacts, found, expected })
+                Err(ContactError::Length {
+                    what: "row of a block of W",
+                    contacts,
+                    found,
+                    expected,
+                })
             }
             _ => Ok(()),
         }
@@ -80,7 +90,14 @@ impl ContactProblem {
 
     fn check_numbers(&self) -> Result<(), ContactError> {
         let d = self.cone.dim();
-        let bad = |what, entry: usize, contact, value| Err(ContactError::NotFinite { what, contact, entry, value });
+        let bad = |what, entry: usize, contact, value| {
+            Err(ContactError::NotFinite {
+                what,
+                contact,
+                entry,
+                value,
+            })
+        };
         if let Some((k, &x)) = first_bad(&self.q) {
             return bad("q", k, k / d, x);
         }
@@ -122,7 +139,10 @@ impl ContactProblem {
             })
             .collect();
         let good = |x: f64| x > 0.0 && x.is_finite();
-        let (sum, count) = scales.iter().filter(|x| good(**x)).fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
+        let (sum, count) = scales
+            .iter()
+            .filter(|x| good(**x))
+            .fold((0.0, 0usize), |(s, n), x| (s + x, n + 1));
         let mean = if count > 0 { sum / count as f64 } else { 1.0 };
         for x in &mut scales {
             if !good(*x) {
@@ -162,20 +182,58 @@ mod tests {
         assert!(unit(2).check().is_ok());
         let mut p = unit(2);
         p.q[4] = f64::NAN;
-        assert!(p.check().unwrap_err().to_string().contains("entry 4 (contact 1)"));
+        assert!(
+            p.check()
+                .unwrap_err()
+                .to_string()
+                .contains("entry 4 (contact 1)")
+        );
         let mut p = unit(2);
         p.mu[1] = -0.1;
-        assert_eq!(p.check(), Err(ContactError::Friction { contact: 1, mu: -0.1 }));
+        assert_eq!(
+            p.check(),
+            Err(ContactError::Friction {
+                contact: 1,
+                mu: -0.1
+            })
+        );
         let mut p = unit(2);
         p.q.pop();
-        assert!(matches!(p.check(), Err(ContactError::Length { what: "q", found: 5, expected: 6, .. })));
+        assert!(matches!(
+            p.check(),
+            Err(ContactError::Length {
+                what: "q",
+                found: 5,
+                expected: 6,
+                ..
+            })
+        ));
         let mut w = Mat::identity(6, 6);
         w[(5, 5)] = -1.0;
-        let p = ContactProblem { w: Delassus::Dense(w), ..unit(2) };
-        assert_eq!(p.check(), Err(ContactError::Compliance { contact: 1, value: -1.0 }));
+        let p = ContactProblem {
+            w: Delassus::Dense(w),
+            ..unit(2)
+        };
+        assert_eq!(
+            p.check(),
+            Err(ContactError::Compliance {
+                contact: 1,
+                value: -1.0
+            })
+        );
         let mut w = Mat::identity(6, 6);
         w[(5, 0)] = f64::INFINITY;
-        let p = ContactProblem { w: Delassus::Dense(w), ..unit(2) };
-        assert!(matches!(p.check(), Err(ContactError::NotFinite { what: "W", contact: 1, .. })));
+        let p = ContactProblem {
+            w: Delassus::Dense(w),
+            ..unit(2)
+        };
+        assert!(matches!(
+            p.check(),
+            Err(ContactError::NotFinite {
+                what: "W",
+                contact: 1,
+                ..
+            })
+        ));
     }
 }

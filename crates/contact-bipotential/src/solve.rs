@@ -8,6 +8,7 @@ mod local_newton;
 mod mixing;
 mod newton;
 mod proximal;
+pub mod sequence;
 pub mod single;
 mod uzawa;
 
@@ -93,7 +94,11 @@ pub struct SolveSettings {
 
 impl Default for SolveSettings {
     fn default() -> Self {
-        SolveSettings { method: Method::Auto, tolerance: 1e-10, max_iterations: 20_000 }
+        SolveSettings {
+            method: Method::Auto,
+            tolerance: 1e-10,
+            max_iterations: 20_000,
+        }
     }
 }
 
@@ -171,11 +176,20 @@ fn refused(size: usize, settings: &SolveSettings, refusal: ContactError) -> Outc
     }
 }
 
-fn run<const D: usize>(problem: &ContactProblem, r: &mut [f64], settings: &SolveSettings) -> Outcome {
+fn run<const D: usize>(
+    problem: &ContactProblem,
+    r: &mut [f64],
+    settings: &SolveSettings,
+) -> Outcome {
     let assembled;
     let problem = match &problem.w {
-        Delassus::Operator(w) if needs_entries(settings.method) && w.size() <= auto::LARGEST_ASSEMBLED => {
-            assembled = ContactProblem { w: Delassus::Dense(problem.w.to_dense()), ..problem.clone() };
+        Delassus::Operator(w)
+            if needs_entries(settings.method) && w.size() <= auto::LARGEST_ASSEMBLED =>
+        {
+            assembled = ContactProblem {
+                w: Delassus::Dense(problem.w.to_dense()),
+                ..problem.clone()
+            };
             &assembled
         }
         _ => problem,
@@ -207,7 +221,11 @@ fn apply<const D: usize>(
     match settings.method {
         Method::Auto => return auto::auto::<D>(problem, truth, best, settings, work),
         Method::Proximal => {
-            let plan = ProximalPlan { budget, alpha: 1.0, ..ProximalPlan::default() };
+            let plan = ProximalPlan {
+                budget,
+                alpha: 1.0,
+                ..ProximalPlan::default()
+            };
             let mut system = NewtonSystem::<D>::new(problem, truth.scales());
             proximal::proximal(truth, &mut system, best, tolerance, &plan, work);
         }
@@ -216,31 +234,56 @@ fn apply<const D: usize>(
             newton::newton(truth, &mut system, best, tolerance, budget.min(200), work);
         }
         Method::GaussSeidel => sweeper(Kernel::Exact).run(truth, best, tolerance, budget, work),
-        Method::GaussSeidelAnderson => sweeper(Kernel::Exact).run_mixed(truth, best, tolerance, budget, work),
-        Method::GaussSeidelBipotential => sweeper(Kernel::PredictCorrect).run(truth, best, tolerance, budget, work),
+        Method::GaussSeidelAnderson => {
+            sweeper(Kernel::Exact).run_mixed(truth, best, tolerance, budget, work)
+        }
+        Method::GaussSeidelBipotential => {
+            sweeper(Kernel::PredictCorrect).run(truth, best, tolerance, budget, work)
+        }
         Method::JoliFeng => sweeper(Kernel::JoliFeng).run(truth, best, tolerance, budget, work),
         Method::Uzawa => uzawa::uzawa::<D>(problem, truth, best, tolerance, budget, false, work),
-        Method::UzawaAnderson => uzawa::uzawa::<D>(problem, truth, best, tolerance, budget, true, work),
+        Method::UzawaAnderson => {
+            uzawa::uzawa::<D>(problem, truth, best, tolerance, budget, true, work)
+        }
     }
     settings.method
 }
 
-fn finish(truth: &Truth<'_>, r: &mut [f64], best: Iterate, settings: &SolveSettings, method: Method, work: Work) -> Outcome {
+fn finish(
+    truth: &Truth<'_>,
+    r: &mut [f64],
+    best: Iterate,
+    settings: &SolveSettings,
+    method: Method,
+    work: Work,
+) -> Outcome {
     r.copy_from_slice(&best.r);
     let mut u = best.u;
-    let Errors { siconos, scale_free, .. } = truth.evaluate(r, &mut u);
+    let Errors {
+        siconos,
+        scale_free,
+        ..
+    } = truth.evaluate(r, &mut u);
     let converged = siconos <= settings.tolerance && scale_free <= settings.tolerance;
     if !u.iter().all(|x| x.is_finite()) {
         u.fill(0.0);
     }
     Outcome {
-        status: if converged { SolveStatus::Converged } else { SolveStatus::NotConverged },
+        status: if converged {
+            SolveStatus::Converged
+        } else {
+            SolveStatus::NotConverged
+        },
         method,
         iterations: work.sweeps + work.newton_steps + work.projections,
         work,
         error: siconos,
         error_scale_free: scale_free,
-        diagnostics: if converged { Vec::new() } else { truth.diagnose(r, &u) },
+        diagnostics: if converged {
+            Vec::new()
+        } else {
+            truth.diagnose(r, &u)
+        },
         u,
         refusal: None,
     }

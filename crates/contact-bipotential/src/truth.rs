@@ -21,7 +21,11 @@ pub struct Errors {
 
 impl Errors {
     /// The error of something that is no candidate at all.
-    pub const WORST: Errors = Errors { siconos: f64::MAX, scale_free: f64::MAX, gap: f64::MAX };
+    pub const WORST: Errors = Errors {
+        siconos: f64::MAX,
+        scale_free: f64::MAX,
+        gap: f64::MAX,
+    };
 
     /// The larger of the two errors that a solution is judged by.
     pub fn worst(&self) -> f64 {
@@ -42,7 +46,11 @@ impl<'a> Truth<'a> {
     pub fn new(problem: &'a ContactProblem) -> Self {
         let scales = problem.compliance_scales();
         let roots = scales.iter().map(|w| w.sqrt()).collect();
-        Truth { problem, scales, roots }
+        Truth {
+            problem,
+            scales,
+            roots,
+        }
     }
 
     /// Compliance scale `w_c` of each contact.
@@ -84,18 +92,39 @@ impl<'a> Truth<'a> {
         let mut free = Sums::default();
         for (c, &mu) in self.problem.mu.iter().enumerate() {
             let root = self.roots[c];
-            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
+            let (rc, uc, qc) = (
+                load::<D>(r, c),
+                load::<D>(u, c),
+                load::<D>(&self.problem.q, c),
+            );
             raw.add(mu, &scaled(&rc, k), &scaled(&uc, k), &scaled(&qc, k));
-            free.add(mu, &scaled(&rc, e * root), &scaled(&uc, e / root), &scaled(&qc, e / root));
+            free.add(
+                mu,
+                &scaled(&rc, e * root),
+                &scaled(&uc, e / root),
+                &scaled(&qc, e / root),
+            );
         }
-        let errors = Errors { siconos: raw.error(), scale_free: free.strict_error(), gap: free.gap() };
-        if errors.worst().is_finite() { errors } else { Errors::WORST }
+        let errors = Errors {
+            siconos: raw.error(),
+            scale_free: free.strict_error(),
+            gap: free.gap(),
+        };
+        if errors.worst().is_finite() {
+            errors
+        } else {
+            Errors::WORST
+        }
     }
 
     fn magnitudes<const D: usize>(&self, r: &[f64], u: &[f64]) -> (f64, f64) {
         let (mut plain, mut energy, mut sum) = (0.0_f64, 0.0_f64, 0.0);
         for (c, root) in self.roots.iter().enumerate() {
-            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
+            let (rc, uc, qc) = (
+                load::<D>(r, c),
+                load::<D>(u, c),
+                load::<D>(&self.problem.q, c),
+            );
             let (mr, mv) = (max_abs(&rc), max_abs(&uc).max(max_abs(&qc)));
             plain = plain.max(mr).max(mv);
             energy = energy.max(mr * root).max(mv / root);
@@ -122,8 +151,16 @@ impl<'a> Truth<'a> {
         let mut total = 0.0;
         for c in 0..self.scales.len() {
             let root = self.roots[c];
-            let (rc, uc, qc) = (load::<D>(r, c), load::<D>(u, c), load::<D>(&self.problem.q, c));
-            let size = [scaled(&rc, e * root), scaled(&uc, e / root), scaled(&qc, e / root)];
+            let (rc, uc, qc) = (
+                load::<D>(r, c),
+                load::<D>(u, c),
+                load::<D>(&self.problem.q, c),
+            );
+            let size = [
+                scaled(&rc, e * root),
+                scaled(&uc, e / root),
+                scaled(&qc, e / root),
+            ];
             total += size.iter().map(|v| dot(v, v)).fold(0.0, f64::max);
         }
         let total = if total > 0.0 { total.sqrt() } else { 1.0 };
@@ -176,13 +213,17 @@ impl Sums {
 
     fn error(&self) -> f64 {
         let size = self.q.max(self.r).max(self.u);
-        if size > 0.0 { (self.f / size).sqrt() } else { 0.0 }
+        if size > 0.0 {
+            (self.f / size).sqrt()
+        } else {
+            0.0
+        }
     }
 
     fn strict_error(&self) -> f64 {
         let size = self.q.max(self.u);
         let rounding = self.f <= ROUNDING * ROUNDING * self.r && self.r <= RUNAWAY * RUNAWAY * size;
-        if rounding || !(size > 0.0) {
+        if rounding || size == 0.0 {
             return self.error();
         }
         (self.f / size).sqrt()
@@ -205,7 +246,7 @@ fn scaled<const D: usize>(v: &Vector<D>, factor: f64) -> Vector<D> {
 
 /// A power of two near `1 / size`, so that scaling rounds nothing.
 fn reciprocal(size: f64) -> f64 {
-    if !(size > 0.0) {
+    if size <= 0.0 || size.is_nan() {
         return 1.0;
     }
     (-size.log2().round()).clamp(-1000.0, 1000.0).exp2()
@@ -235,7 +276,10 @@ mod tests {
                 }
                 let (p, r) = sliding_block(factor_w, factor_q);
                 let e = errors(&p, &r);
-                assert!(e.worst() < 1e-14 && e.gap < 1e-14, "{factor_w} {factor_q} {e:?}");
+                assert!(
+                    e.worst() < 1e-14 && e.gap < 1e-14,
+                    "{factor_w} {factor_q} {e:?}"
+                );
                 let half: Vec<f64> = r.iter().map(|x| 0.5 * x).collect();
                 let wrong = errors(&p, &half).scale_free;
                 let (p1, r1) = sliding_block(1.0, 1.0);
@@ -262,7 +306,11 @@ mod tests {
         let half: Vec<f64> = r.iter().map(|x| 0.5 * x).collect();
         let e = truth.evaluate(&half, &mut u);
         let d = truth.diagnose(&half, &u);
-        assert!(d[0].penetration > 0.9 && d[0].error > 0.5 * e.scale_free && d[0].error < 2.0 * e.scale_free);
+        assert!(
+            d[0].penetration > 0.9
+                && d[0].error > 0.5 * e.scale_free
+                && d[0].error < 2.0 * e.scale_free
+        );
         truth.evaluate(&r, &mut u);
         assert_eq!(truth.diagnose(&r, &u)[0].status, Status::Slip);
     }

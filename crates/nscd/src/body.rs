@@ -32,6 +32,7 @@ pub(crate) struct BodySystem {
     factored: Option<Weights>,
     contraction: Option<f64>,
     largest_stiffness: f64,
+    epoch: u64,
     forward: Vec<f64>,
     rhs: Vec<f64>,
     solution: Vec<f64>,
@@ -84,6 +85,7 @@ impl BodySystem {
             factored: None,
             contraction: None,
             largest_stiffness: 0.0,
+            epoch: 0,
             forward: vec![0.0; n],
             rhs: vec![0.0; n],
             solution: vec![0.0; n],
@@ -103,6 +105,11 @@ impl BodySystem {
     /// Compliance of the candidate surface, if it was asked for since the last factorization.
     pub(crate) fn condensed(&self) -> Option<&CompliancePart> {
         self.condensed.as_ref()
+    }
+
+    /// How often the body was factorized.
+    pub(crate) fn epoch(&self) -> u64 {
+        self.epoch
     }
 
     /// Whether the body has unknowns that may come into contact.
@@ -146,6 +153,7 @@ impl BodySystem {
         counters: &mut Counters,
     ) -> Result<(), StepFailure> {
         self.factored = None;
+        self.epoch += 1;
         self.contraction = None;
         self.condensed = None;
         self.surface = None;

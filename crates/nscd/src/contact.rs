@@ -1,7 +1,7 @@
 //! The contact side of a step: candidates, local variable, local problem, error of the law.
 
 use contact_bipotential::cone::project;
-use contact_bipotential::{CompliancePart, Contact, ContactMap, ContactProblem, Cone, Delassus, SolveSettings, solve};
+use contact_bipotential::{CompliancePart, Contact, ContactMap, ContactProblem, Cone, Delassus, SequenceSolver, SolveSettings};
 use faer::Mat;
 
 use crate::body::BodySystem;
@@ -22,13 +22,17 @@ pub(crate) struct ContactMemory {
     stiffness: Vec<Vec<f64>>,
     /// Entries of a local vector.
     pub(crate) cone: usize,
+    solver: SequenceSolver,
+    kept: Option<KeptOperator>,
+    /// Factorizations of the bodies that the present contact problem stands on.
+    epochs: Vec<u64>,
 }
 
 impl ContactMemory {
     pub(crate) fn new(model: &Model) -> Self {
         let cone = cone_of(model).dim();
         let sized = |k: usize| model.interfaces.iter().map(|i| vec![0.0; k * i.slave.len()]).collect();
-        Self { forces: sized(cone), stiffness: sized(1), cone }
+        Self { forces: sized(cone), stiffness: sized(1), cone, solver: SequenceSolver::default(), kept: None, epochs: Vec::new() }
     }
 
     /// The remembered force of every contact of a map.
@@ -237,10 +241,7 @@ impl LinearisedContact {
         let select = |all: &[f64]| -> Vec<f64> {
             all.chunks_exact(cone).zip(&keep).filter(|(_, k)| **k).flat_map(|(c, _)| c.iter().copied()).collect()
         };
-        let parts: Vec<&CompliancePart> = bodies.iter().filter_map(BodySystem::condensed).collect();
-        let mut w = Mat::zeros(map.row_count(), map.row_count());
-        map.delassus(&parts, &mut w);
-        memory.remember_stiffness(&map, &w);
+        let w = memory.operator(&map, bodies);
         let mu = map.contacts.iter().map(|c| model.interfaces[c.interface].mu).collect();
         let problem = ContactProblem { w: Delassus::Dense(w), q: select(&free), mu, cone: map.cone() };
         Ok(Self { r: select(&trial.r), map, problem })
@@ -259,7 +260,7 @@ impl LinearisedContact {
             max_iterations: model.settings.contact_iterations,
             ..SolveSettings::default()
         };
-        let outcome = solve(&self.problem, &mut self.r, &settings);
+        let outcome = memory.solver.solve(&self.problem, &mut self.r, &settings);
         if std::env::var("TRACE").is_ok() { println!("   solve tol {tolerance:.1e} it {} {:?} err {:.1e} {:.1e} n {}", outcome.iterations, outcome.method, outcome.error, outcome.error_scale_free, self.map.len()); }
         counters.contact_solves += 1;
         counters.contact_iterations += outcome.iterations as u64;
@@ -277,11 +278,44 @@ impl LinearisedContact {
         let mut force = vec![0.0; model.dof_count()];
         self.map.apply_transpose(&self.r, &mut force);
         memory.store(&self.map, &self.r);
+        memory.keep_operator(self.map, self.problem.w);
         Ok(force)
     }
 }
 
+/// `W` of the last contact problem: it holds as long as no frame, no stencil and no factor changed,
+/// which is the rule between bodies and rigid planes.
+#[derive(Debug)]
+struct KeptOperator {
+    contacts: Vec<Contact>,
+    /// Factorizations of the bodies at the time.
+    epochs: Vec<u64>,
+    w: Mat<f64>,
+}
+
 impl ContactMemory {
+    fn operator(&mut self, map: &ContactMap, bodies: &[BodySystem]) -> Mat<f64> {
+        let epochs: Vec<u64> = bodies.iter().map(BodySystem::epoch).collect();
+        self.epochs = epochs;
+        if let Some(last) = self.kept.take()
+            && last.epochs == self.epochs
+            && same_operator(&last.contacts, &map.contacts)
+        {
+            return last.w;
+        }
+        let parts: Vec<&CompliancePart> = bodies.iter().filter_map(BodySystem::condensed).collect();
+        let mut w = Mat::zeros(map.row_count(), map.row_count());
+        map.delassus(&parts, &mut w);
+        self.remember_stiffness(map, &w);
+        w
+    }
+
+    fn keep_operator(&mut self, map: ContactMap, w: Delassus) {
+        if let Delassus::Dense(w) = w {
+            self.kept = Some(KeptOperator { contacts: map.contacts, epochs: self.epochs.clone(), w });
+        }
+    }
+
     fn remember_stiffness(&mut self, map: &ContactMap, w: &Mat<f64>) {
         for (k, c) in map.contacts.iter().enumerate() {
             let trace: f64 = (self.cone * k..self.cone * (k + 1)).map(|i| w[(i, i)]).sum();
@@ -290,6 +324,10 @@ impl ContactMemory {
             }
         }
     }
+}
+
+fn same_operator(a: &[Contact], b: &[Contact]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.stencil == b.stencil && a.frame == b.frame)
 }
 
 /// Names a contact for an error message.

@@ -169,10 +169,10 @@ impl Monitor {
     }
 }
 
-/// Estimated seconds of one contact solve with so many rows: W and two factorizations.
+/// Estimated seconds of one contact solve with so many rows: a few products with W.
 fn contact_cost(rows: usize) -> f64 {
     let n = rows as f64;
-    n * n * 1e-8 + n.powi(3) * 4e-11
+    n * n * 2e-8
 }
 
 /// Longest edge of a bounding box of an element [m].

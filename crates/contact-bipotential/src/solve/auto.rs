@@ -29,7 +29,15 @@ pub(crate) fn auto<const D: usize>(
     }
     let dense = match &problem.w {
         Delassus::Operator(_) => {
-            uzawa::<D>(problem, truth, best, tolerance, settings.max_iterations, true, work);
+            uzawa::<D>(
+                problem,
+                truth,
+                best,
+                tolerance,
+                settings.max_iterations,
+                true,
+                work,
+            );
             return Method::UzawaAnderson;
         }
         Delassus::Dense(_) => true,
@@ -37,15 +45,36 @@ pub(crate) fn auto<const D: usize>(
     };
     let sweeper = Sweeper::<D>::new(problem, Kernel::Exact);
     if best.errors.scale_free > WARM || best.r.iter().all(|x| *x == 0.0) {
-        look_around(truth, &sweeper, best, tolerance, if dense { 6 } else { 20 }, work);
+        look_around(
+            truth,
+            &sweeper,
+            best,
+            tolerance,
+            if dense { 6 } else { 20 },
+            work,
+        );
     }
     let mut system = NewtonSystem::<D>::new(problem, truth.scales());
     let first = if dense { HARDLY_ANY } else { MODERATE };
     let steps = settings.max_iterations / 10;
     let plans = [
-        ProximalPlan { alpha: first, budget: steps / 4, ..ProximalPlan::default() },
-        ProximalPlan { alpha: 1e-2, inner_steps: 10, budget: steps / 4, rise: 3.0 },
-        ProximalPlan { alpha: 1.0, inner_steps: 20, budget: steps / 2, rise: 2.0 },
+        ProximalPlan {
+            alpha: first,
+            budget: steps / 4,
+            ..ProximalPlan::default()
+        },
+        ProximalPlan {
+            alpha: 1e-2,
+            inner_steps: 10,
+            budget: steps / 4,
+            rise: 3.0,
+        },
+        ProximalPlan {
+            alpha: 1.0,
+            inner_steps: 20,
+            budget: steps / 2,
+            rise: 2.0,
+        },
     ];
     let sweeps = settings.max_iterations / plans.len();
     for (k, plan) in plans.iter().enumerate() {
@@ -57,7 +86,11 @@ pub(crate) fn auto<const D: usize>(
         }
         proximal(truth, &mut system, best, tolerance, plan, work);
     }
-    if work.newton_steps > 0 { Method::Proximal } else { Method::GaussSeidel }
+    if work.newton_steps > 0 {
+        Method::Proximal
+    } else {
+        Method::GaussSeidel
+    }
 }
 
 /// At least `few` sweeps, and more while each pair gains a factor of five: then sweeping is all it takes.

@@ -120,7 +120,10 @@ impl<const D: usize> BlockLu<D> {
             self.l[at] = l;
         }
         for at in self.upper.range(i) {
-            self.u[at] = std::mem::replace(&mut self.work[self.upper.columns[at] as usize], [[0.0; 4]; 3]);
+            self.u[at] = std::mem::replace(
+                &mut self.work[self.upper.columns[at] as usize],
+                [[0.0; 4]; 3],
+            );
         }
         let d = std::mem::replace(&mut self.work[i], [[0.0; 4]; 3]);
         let mut pivot = [[0.0; D]; D];
@@ -177,7 +180,8 @@ impl<const D: usize> BlockLu<D> {
             if !rows.is_alone(c) {
                 for &j in w.row(c) {
                     let p = self.place[j as usize];
-                    if p as usize > k && mark[p as usize] != k as u32 && !rows.is_alone(j as usize) {
+                    if p as usize > k && mark[p as usize] != k as u32 && !rows.is_alone(j as usize)
+                    {
                         mark[p as usize] = k as u32;
                         upper.columns.push(p);
                     }
@@ -253,9 +257,17 @@ fn minimum_degree(w: &BlockSparse) -> Option<Vec<u32>> {
     }
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, &offsets, None, &indices);
     let (mut order, mut place) = (vec![0usize; n], vec![0usize; n]);
-    let mut memory = MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(n, indices.len())).ok()?;
+    let mut memory =
+        MemBuffer::try_new(amd::order_maybe_unsorted_scratch::<usize>(n, indices.len())).ok()?;
     let stack = MemStack::new(&mut memory);
-    amd::order_maybe_unsorted(&mut order, &mut place, pattern, amd::Control::default(), stack).ok()?;
+    amd::order_maybe_unsorted(
+        &mut order,
+        &mut place,
+        pattern,
+        amd::Control::default(),
+        stack,
+    )
+    .ok()?;
     Some(order.into_iter().map(|c| c as u32).collect())
 }
 
@@ -266,7 +278,12 @@ mod tests {
     struct All<'a>(&'a BlockSparse, Vec<bool>);
     impl BlockRows<3> for All<'_> {
         fn row(&self, c: usize, mut put: impl FnMut(usize, &Matrix<3>)) {
-            for (&j, block) in self.0.row(c).iter().zip(self.0.row_values(c).chunks_exact(9)) {
+            for (&j, block) in self
+                .0
+                .row(c)
+                .iter()
+                .zip(self.0.row_values(c).chunks_exact(9))
+            {
                 let alone = self.1[c] || self.1[j as usize];
                 if alone && j as usize != c {
                     continue;
@@ -289,7 +306,9 @@ mod tests {
         let mut blocks = Vec::new();
         for c in 0..n {
             for j in [c, (c + 1) % n, (c * 7 + 3) % n] {
-                let v: Vec<f64> = (0..9).map(|k| (((c * 31 + j * 17 + k * 5) % 23) as f64 - 11.0) * 0.1).collect();
+                let v: Vec<f64> = (0..9)
+                    .map(|k| (((c * 31 + j * 17 + k * 5) % 23) as f64 - 11.0) * 0.1)
+                    .collect();
                 blocks.push((c, j, v.clone()));
                 blocks.push((j, c, v));
             }

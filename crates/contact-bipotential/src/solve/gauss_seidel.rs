@@ -31,9 +31,16 @@ pub(crate) struct Sweeper<'a, const D: usize> {
 
 impl<'a, const D: usize> Sweeper<'a, D> {
     pub(crate) fn new(problem: &'a ContactProblem, kernel: Kernel) -> Self {
-        let diagonals: Vec<_> = (0..problem.contacts()).map(|c| problem.w.diagonal::<D>(c)).collect();
+        let diagonals: Vec<_> = (0..problem.contacts())
+            .map(|c| problem.w.diagonal::<D>(c))
+            .collect();
         let blocks = diagonals.iter().map(SingleContact::new).collect();
-        Sweeper { problem, kernel, blocks, diagonals }
+        Sweeper {
+            problem,
+            kernel,
+            blocks,
+            diagonals,
+        }
     }
 
     /// One sweep, forwards or backwards. For a dense `W`, `u` must belong to `r` and does so afterwards, up to rounding;
@@ -95,7 +102,14 @@ impl<'a, const D: usize> Sweeper<'a, D> {
     }
 
     /// Sweeps until `best` is within `tolerance` or `budget` sweeps are done; the true error is measured every few sweeps.
-    pub(crate) fn run(&self, truth: &Truth<'_>, best: &mut Iterate, tolerance: f64, budget: usize, work: &mut Work) {
+    pub(crate) fn run(
+        &self,
+        truth: &Truth<'_>,
+        best: &mut Iterate,
+        tolerance: f64,
+        budget: usize,
+        work: &mut Work,
+    ) {
         let mut x = best.clone();
         let mut done = 0;
         while done < budget && !best.is_within(tolerance) {
@@ -111,7 +125,14 @@ impl<'a, const D: usize> Sweeper<'a, D> {
     }
 
     /// Sweeps whose sequence is extrapolated by Anderson's method, safeguarded by the true error.
-    pub(crate) fn run_mixed(&self, truth: &Truth<'_>, best: &mut Iterate, tolerance: f64, budget: usize, work: &mut Work) {
+    pub(crate) fn run_mixed(
+        &self,
+        truth: &Truth<'_>,
+        best: &mut Iterate,
+        tolerance: f64,
+        budget: usize,
+        work: &mut Work,
+    ) {
         let mut x = best.clone();
         let mut mixer = Mixer::new(truth);
         let mut done = 0;
@@ -127,7 +148,7 @@ impl<'a, const D: usize> Sweeper<'a, D> {
                 x.r = mixed;
                 x.refresh(truth);
                 improved |= best.keep_better(&x);
-                if !(x.errors.scale_free <= 2.0 * plain) {
+                if x.errors.scale_free > 2.0 * plain {
                     x = swept;
                     mixer.forget();
                 }

@@ -14,7 +14,11 @@ impl Iterate {
     pub(crate) fn new(truth: &Truth<'_>, r: &[f64]) -> Self {
         let mut u = vec![0.0; r.len()];
         let errors = truth.evaluate(r, &mut u);
-        Iterate { r: r.to_vec(), u, errors }
+        Iterate {
+            r: r.to_vec(),
+            u,
+            errors,
+        }
     }
 
     /// Recomputes `u` and the errors from `r`.

@@ -33,7 +33,7 @@ fn safe_step<const D: usize>(w: &Matrix<D>, scale: f64, mu: f64) -> f64 {
     1.0 / ((1.0 + 0.5 * mu) * largest.max(scale * f64::EPSILON))
 }
 
-/// Newton on `Z(r) = r - Proj(r*)` with its exact derivative [Joli2008]. It converges in about three steps, or not at all
+/// Newton on `Z(r) = r - Proj(r*)` with its exact derivative \[Joli2008\]. It converges in about three steps, or not at all
 /// (some three in a hundred random contacts): then the best point met is returned, projected.
 pub(crate) fn joli_feng<const D: usize>(
     w: &Matrix<D>,
@@ -55,7 +55,9 @@ pub(crate) fn joli_feng<const D: usize>(
         if size <= 1e-14 * max_abs(&r) {
             break;
         }
-        let Some(step) = solve_small(&derivative(w, rho, mu, &u, &r), &z) else { break };
+        let Some(step) = solve_small(&derivative(w, rho, mu, &u, &r), &z) else {
+            break;
+        };
         for i in 0..D {
             r[i] -= step[i];
         }
@@ -64,7 +66,13 @@ pub(crate) fn joli_feng<const D: usize>(
 }
 
 /// `dZ/dr = I - P (I - rho G W)` with `P` the derivative of the projection and `G` that of `x + mu |x_t| n`.
-fn derivative<const D: usize>(w: &Matrix<D>, rho: f64, mu: f64, u: &Vector<D>, r: &Vector<D>) -> Matrix<D> {
+fn derivative<const D: usize>(
+    w: &Matrix<D>,
+    rho: f64,
+    mu: f64,
+    u: &Vector<D>,
+    r: &Vector<D>,
+) -> Matrix<D> {
     let v = cone::modified_velocity(mu, u);
     let slip = tangential_norm(u);
     let mut z = *r;
@@ -112,7 +120,8 @@ fn projection_derivative<const D: usize>(mu: f64, z: &Vector<D>) -> Matrix<D> {
                 p[i][n] = p[n][i];
                 for j in 0..n {
                     let f = z[j] / t;
-                    p[i][j] = mu * mu * e * f * p[n][n] + turn * (f64::from(u8::from(i == j)) - e * f);
+                    p[i][j] =
+                        mu * mu * e * f * p[n][n] + turn * (f64::from(u8::from(i == j)) - e * f);
                 }
             }
         }

@@ -21,7 +21,13 @@ pub(crate) struct Mixer<'a> {
 
 impl<'a> Mixer<'a> {
     pub(crate) fn new(truth: &'a Truth<'_>) -> Self {
-        Mixer { scales: truth.scales(), last: None, steps: Vec::new(), idle: 0, rest: 0 }
+        Mixer {
+            scales: truth.scales(),
+            last: None,
+            steps: Vec::new(),
+            idle: 0,
+            rest: 0,
+        }
     }
 
     pub(crate) fn forget(&mut self) {
@@ -51,7 +57,8 @@ impl<'a> Mixer<'a> {
             if self.steps.len() == DEPTH {
                 self.steps.remove(0);
             }
-            self.steps.push((difference(g, &last_g), difference(&f, &last_f)));
+            self.steps
+                .push((difference(g, &last_g), difference(&f, &last_f)));
         }
         let gamma = self.least_squares(&f);
         self.last = Some((g.to_vec(), f));
@@ -73,8 +80,13 @@ impl<'a> Mixer<'a> {
         }
         let per = f.len() / self.scales.len();
         let product = |a: &[f64], b: &[f64]| {
-            let terms = a.chunks_exact(per).zip(b.chunks_exact(per)).zip(self.scales);
-            terms.map(|((a, b), w)| w * a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()).sum::<f64>()
+            let terms = a
+                .chunks_exact(per)
+                .zip(b.chunks_exact(per))
+                .zip(self.scales);
+            terms
+                .map(|((a, b), w)| w * a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>())
+                .sum::<f64>()
         };
         let mut a = vec![vec![0.0; m + 1]; m];
         for i in 0..m {
@@ -96,7 +108,7 @@ impl<'a> Mixer<'a> {
 fn eliminate(a: &mut [Vec<f64>]) -> Option<Vec<f64>> {
     let m = a.len();
     for k in 0..m {
-        if !(a[k][k] > 0.0) {
+        if a[k][k] <= 0.0 || a[k][k].is_nan() {
             return None;
         }
         for i in k + 1..m {

@@ -1,4 +1,4 @@
-//! The linear step of a semismooth Newton method on the equation of Alart and Curnier [Alart1991].
+//! The linear step of a semismooth Newton method on the equation of Alart and Curnier \[Alart1991\].
 //!
 //! The unknown is `r`, with `v = W r + q + alpha w (r - centre)` (`alpha = 0` is the problem itself, `alpha > 0` a proximal
 //! point step), `w_c` the compliance scale and `rho = 1 / w_c`. Each contact is in one mode, by `z = r - rho v`:
@@ -7,16 +7,20 @@
 //! `beta p.dv_t + (1 - beta) w_c p.dr_t = -w_c p.r_t`. Free contacts leave the linear system, sliding ones keep two unknowns
 //! (one in the plane).
 
+mod sparse_rows;
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting;
 use faer::{Mat, Par};
 
 use crate::delassus::{BlockSparse, Delassus};
-use crate::local::{Matrix, Vector, load, store, tangential_norm};
+use crate::local::{Vector, load, store, tangential_norm};
 use crate::problem::ContactProblem;
-use crate::solve::block_lu::{BlockLu, BlockRows};
+use crate::solve::block_lu::BlockLu;
 use crate::solve::iterate::{Iterate, Work};
 use crate::truth::Truth;
+
+use sparse_rows::SparseRows;
 
 /// What a contact does in one Newton step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +52,10 @@ impl<const D: usize> Mode<D> {
         } else {
             along[0] = 1.0;
         }
-        Mode::Slip { along, beta: if length > 0.0 { radius / length } else { 0.0 } }
+        Mode::Slip {
+            along,
+            beta: if length > 0.0 { radius / length } else { 0.0 },
+        }
     }
 
     /// Number of unknowns kept in the linear system.
@@ -94,7 +101,7 @@ impl<const D: usize> Mode<D> {
 }
 
 /// The tangent across the slip direction.
-fn across<const D: usize>(along: &Vector<D>) -> Vector<D> {
+pub(crate) fn across<const D: usize>(along: &Vector<D>) -> Vector<D> {
     let mut p = [0.0; D];
     if D == 3 {
         p[0] = -along[1];
@@ -130,14 +137,22 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
             scales,
             modes: vec![Mode::Free; problem.contacts()],
             sparse,
-            dense: Dense { matrix: Mat::new(), unknowns: Vec::new() },
+            dense: Dense {
+                matrix: Mat::new(),
+                unknowns: Vec::new(),
+            },
         }
     }
 
     /// Sets the modes from `r` and `v`.
     pub(crate) fn classify(&mut self, r: &[f64], v: &[f64]) {
         for c in 0..self.modes.len() {
-            self.modes[c] = Mode::of(self.problem.mu[c], self.scales[c], &load::<D>(r, c), &load::<D>(v, c));
+            self.modes[c] = Mode::of(
+                self.problem.mu[c],
+                self.scales[c],
+                &load::<D>(r, c),
+                &load::<D>(v, c),
+            );
         }
     }
 
@@ -151,9 +166,24 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
         ok && dr.iter().all(|x| x.is_finite())
     }
 
-    fn step_sparse(&mut self, w: &BlockSparse, r: &[f64], v: &[f64], alpha: f64, dr: &mut [f64]) -> bool {
-        let rows = SparseRows { w, modes: &self.modes, mu: &self.problem.mu, scales: self.scales, alpha };
-        let Some(lu) = self.sparse.as_mut() else { return false };
+    fn step_sparse(
+        &mut self,
+        w: &BlockSparse,
+        r: &[f64],
+        v: &[f64],
+        alpha: f64,
+        dr: &mut [f64],
+    ) -> bool {
+        let rows = SparseRows {
+            w,
+            modes: &self.modes,
+            mu: &self.problem.mu,
+            scales: self.scales,
+            alpha,
+        };
+        let Some(lu) = self.sparse.as_mut() else {
+            return false;
+        };
         if !lu.factorize(w, &rows) {
             return false;
         }
@@ -185,7 +215,8 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
                     b[0] = scale * (slip_excess(mu, along, &rc));
                     if D == 3 {
                         let p = across(along);
-                        b[1] = scale * crate::local::dot(&p, &rc) + beta * crate::local::dot(&p, &dv);
+                        b[1] =
+                            scale * crate::local::dot(&p, &rc) + beta * crate::local::dot(&p, &dv);
                     }
                 }
             }
@@ -198,7 +229,14 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
         true
     }
 
-    fn step_dense(&mut self, w: &Mat<f64>, r: &[f64], v: &[f64], alpha: f64, dr: &mut [f64]) -> bool {
+    fn step_dense(
+        &mut self,
+        w: &Mat<f64>,
+        r: &[f64],
+        v: &[f64],
+        alpha: f64,
+        dr: &mut [f64],
+    ) -> bool {
         let mut known = vec![0.0; r.len()];
         self.dense.unknowns.clear();
         for (c, mode) in self.modes.iter().enumerate() {
@@ -219,7 +257,9 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
                 }
             }
             store(&mut known, c, &fixed);
-            self.dense.unknowns.extend((0..mode.unknowns()).map(|k| (c as u32, k as u8)));
+            self.dense
+                .unknowns
+                .extend((0..mode.unknowns()).map(|k| (c as u32, k as u8)));
         }
         let mut shifted = vec![0.0; r.len()];
         self.problem.w.times(&known, &mut shifted);
@@ -256,7 +296,8 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
                         dv[i] -= vc[i];
                     }
                     let p = across(along);
-                    -crate::local::dot(&test, &dv) - self.scales[c] * crate::local::dot(&p, &load::<D>(r, c))
+                    -crate::local::dot(&test, &dv)
+                        - self.scales[c] * crate::local::dot(&p, &load::<D>(r, c))
                 }
                 _ => -crate::local::dot(&test, &moved),
             }
@@ -339,14 +380,29 @@ fn solve_dense(matrix: &mut Mat<f64>, x: &mut [f64]) {
     }
     let (mut order, mut place) = (vec![0usize; n], vec![0usize; n]);
     let params = Default::default();
-    let scratch = partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, params);
-    let scratch = scratch.or(partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq));
+    let scratch =
+        partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, params);
+    let scratch =
+        scratch.or(partial_pivoting::solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq));
     let mut memory = MemBuffer::new(scratch);
     let stack = MemStack::new(&mut memory);
-    let (_, order) =
-        partial_pivoting::factor::lu_in_place(matrix.as_mut(), &mut order, &mut place, Par::Seq, stack, params);
+    let (_, order) = partial_pivoting::factor::lu_in_place(
+        matrix.as_mut(),
+        &mut order,
+        &mut place,
+        Par::Seq,
+        stack,
+        params,
+    );
     let right = faer::MatMut::from_column_major_slice_mut(x, n, 1);
-    partial_pivoting::solve::solve_in_place(matrix.as_ref(), matrix.as_ref(), order, right, Par::Seq, stack);
+    partial_pivoting::solve::solve_in_place(
+        matrix.as_ref(),
+        matrix.as_ref(),
+        order,
+        right,
+        Par::Seq,
+        stack,
+    );
 }
 
 /// Newton's method on the problem itself (`alpha = 0`) with backtracking on the natural map: fast and, on hyperstatic
@@ -376,7 +432,7 @@ pub(crate) fn newton<const D: usize>(
 }
 
 /// The first of `r + dr`, `r + dr/2`, .. that lowers the error, or the best of them.
-fn backtrack(truth: &Truth<'_>, x: &Iterate, dr: &[f64]) -> Iterate {
+pub(crate) fn backtrack(truth: &Truth<'_>, x: &Iterate, dr: &[f64]) -> Iterate {
     let mut trial = x.clone();
     let mut best: Option<Iterate> = None;
     let mut t = 1.0;
@@ -395,74 +451,4 @@ fn backtrack(truth: &Truth<'_>, x: &Iterate, dr: &[f64]) -> Iterate {
         t *= 0.5;
     }
     best.unwrap_or(trial)
-}
-
-struct SparseRows<'a, const D: usize> {
-    w: &'a BlockSparse,
-    modes: &'a [Mode<D>],
-    mu: &'a [f64],
-    scales: &'a [f64],
-    alpha: f64,
-}
-
-impl<const D: usize> BlockRows<D> for SparseRows<'_, D> {
-    #[inline]
-    fn row(&self, c: usize, mut put: impl FnMut(usize, &Matrix<D>)) {
-        let mut extra = [[0.0; D]; D];
-        let mode = &self.modes[c];
-        let scale = self.scales[c];
-        match mode {
-            Mode::Free => {
-                for i in 0..D {
-                    extra[i][i] = 1.0;
-                }
-                return put(c, &extra);
-            }
-            Mode::Stick => {
-                for i in 0..D {
-                    extra[i][i] = self.alpha * scale;
-                }
-            }
-            Mode::Slip { along, beta } => {
-                let p = across(along);
-                extra[D - 1][D - 1] = self.alpha * scale;
-                for i in 0..D - 1 {
-                    extra[0][i] = scale * along[i];
-                    if D == 3 {
-                        extra[1][i] = scale * (1.0 - beta + self.alpha * beta) * p[i];
-                    }
-                }
-                extra[0][D - 1] = -scale * self.mu[c];
-            }
-        }
-        put(c, &extra);
-        for (&j, block) in self.w.row(c).iter().zip(self.w.row_values(c).chunks_exact(D * D)) {
-            let j = j as usize;
-            if self.modes[j] == Mode::Free {
-                continue;
-            }
-            let mut m = [[0.0; D]; D];
-            match mode {
-                Mode::Slip { along, beta } => {
-                    m[D - 1].copy_from_slice(&block[(D - 1) * D..]);
-                    if D == 3 {
-                        for k in 0..D {
-                            m[1][k] = beta * (along[0] * block[D + k] - along[1] * block[k]);
-                        }
-                    }
-                }
-                _ => {
-                    for i in 0..D {
-                        m[i].copy_from_slice(&block[i * D..i * D + D]);
-                    }
-                }
-            }
-            put(j, &m);
-        }
-    }
-
-    #[inline]
-    fn is_alone(&self, c: usize) -> bool {
-        self.modes[c] == Mode::Free
-    }
 }

@@ -32,7 +32,12 @@ pub(crate) struct ProximalPlan {
 
 impl Default for ProximalPlan {
     fn default() -> Self {
-        ProximalPlan { alpha: MODERATE, inner_steps: 6, budget: 1000, rise: 4.0 }
+        ProximalPlan {
+            alpha: MODERATE,
+            inner_steps: 6,
+            budget: 1000,
+            rise: 4.0,
+        }
     }
 }
 
@@ -50,7 +55,13 @@ pub(crate) fn proximal<const D: usize>(
     let mut spent = 0;
     let mut settled = false;
     while !best.is_within(tolerance) && spent < plan.budget && alpha <= LARGEST {
-        let inner = Inner { truth, centre: &centre, alpha, tolerance, hasty: !settled };
+        let inner = Inner {
+            truth,
+            centre: &centre,
+            alpha,
+            tolerance,
+            hasty: !settled,
+        };
         let (next, steps, solved) = inner.run(system, plan.inner_steps.min(plan.budget - spent));
         spent += steps.max(1);
         let gain = next.errors.scale_free / centre.errors.scale_free;
@@ -92,7 +103,11 @@ struct Inner<'a> {
 
 impl Inner<'_> {
     /// Full Newton steps. Returns the last point, the steps taken and whether the subproblem counts as solved.
-    fn run<const D: usize>(&self, system: &mut NewtonSystem<'_, D>, steps: usize) -> (Iterate, usize, bool) {
+    fn run<const D: usize>(
+        &self,
+        system: &mut NewtonSystem<'_, D>,
+        steps: usize,
+    ) -> (Iterate, usize, bool) {
         let scales = self.truth.scales();
         let mut x = self.centre.clone();
         let mut v = x.u.clone();

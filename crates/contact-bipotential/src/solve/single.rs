@@ -1,14 +1,20 @@
 //! The exact solution of one contact: `u = W r + b` with the law between `u` and `r`.
 //!
 //! Free if `b_n >= 0`, stuck if `-W^-1 b` lies in the cone; else the contact slides with `u_t = -a r_t`, `u_n = 0`, and
-//! `a > 0` solves `|r_t(a)| = mu r_n(a)`, whose square is the quartic of Bonnefon and Daviet [Bonnefon2011]. The
+//! `a > 0` solves `|r_t(a)| = mu r_n(a)`, whose square is the quartic of Bonnefon and Daviet \[Bonnefon2011\]. The
 //! unsquared equation is kept here: the right side times the determinant is a quadratic in `a`, the left the length of
 //! a vector linear in `a`, and for positive definite `W` the ends of `[0, a_max]` always bracket a root. Newton inside the
 //! bracket cannot fail and never meets the spurious roots that squaring brings.
 
+mod slip_root;
+
 use crate::cone;
 use crate::law::{Status, natural_map};
-use crate::local::{Matrix, Vector, affine, dot, inverse, max_abs, solve_small, tangential_norm, times, trace};
+use crate::local::{
+    Matrix, Vector, affine, inverse, max_abs, solve_small, tangential_norm, times, trace,
+};
+
+use slip_root::SlipRoot;
 
 /// Largest accepted scale-free residual of a contact that is called solved.
 const SOLVED: f64 = 1e-13;
@@ -27,9 +33,11 @@ pub struct SingleSolution<const D: usize> {
 /// The compliance of one contact with everything that does not depend on `b`, ready for many solutions.
 #[derive(Debug, Clone)]
 pub struct SingleContact<const D: usize> {
-    /// `W` divided by its mean diagonal.
+    /// `W` divided by `scale`.
     w: Matrix<D>,
     scale: f64,
+    /// No entry is far above the diagonal.
+    tame: bool,
     stick: Option<Matrix<D>>,
     slip: Reduced,
 }
@@ -48,15 +56,26 @@ impl<const D: usize> SingleContact<D> {
     /// Prepares the compliance `w`, unit of `u` over unit of `r`.
     pub fn new(w: &Matrix<D>) -> Self {
         let mean = trace(w) / D as f64;
-        let scale = if mean.is_finite() && mean > 0.0 { mean } else { 1.0 };
-        let mut wn = *w;
+        let scale = if mean.is_finite() && mean > 0.0 {
+            power_of_two(mean)
+        } else {
+            1.0
+        };
+        let (mut wn, inverse_scale) = (*w, 1.0 / scale);
         for x in wn.iter_mut().flatten() {
-            *x /= scale;
+            *x *= inverse_scale;
         }
-        SingleContact { w: wn, scale, stick: inverse(&wn), slip: Reduced::new(&wn) }
+        let tame = wn.iter().all(|row| row.iter().all(|x| x.abs() <= 1e20));
+        SingleContact {
+            w: wn,
+            scale,
+            tame,
+            stick: inverse(&wn),
+            slip: Reduced::new(&wn),
+        }
     }
 
-    /// Mean diagonal of `W`, the compliance scale of this contact.
+    /// A power of two near the mean diagonal of `W`, the compliance scale of this contact.
     pub fn scale(&self) -> f64 {
         self.scale
     }
@@ -65,28 +84,45 @@ impl<const D: usize> SingleContact<D> {
     #[inline]
     pub fn solve(&self, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
         if b[D - 1] >= 0.0 {
-            return SingleSolution { r: [0.0; D], status: Status::Separate, solved: b.iter().all(|x| x.is_finite()) };
+            return SingleSolution {
+                r: [0.0; D],
+                status: Status::Separate,
+                solved: b.iter().all(|x| x.is_finite()),
+            };
         }
-        let size = max_abs(b);
-        if !size.is_finite() {
-            return SingleSolution { r: [0.0; D], status: Status::Separate, solved: false };
+        if !b.iter().all(|x| x.is_finite()) {
+            return SingleSolution {
+                r: [0.0; D],
+                status: Status::Separate,
+                solved: false,
+            };
         }
-        let mut unit = *b;
+        // Scaling by powers of two rounds nothing: what holds for the unit contact holds for this one.
+        let size = power_of_two(max_abs(b));
+        let (mut unit, inverse_size) = (*b, 1.0 / size);
         for x in &mut unit {
-            *x /= size;
+            *x *= inverse_size;
         }
         let mut s = self.solve_scaled(&unit, mu);
         let ratio = size / self.scale;
         for x in &mut s.r {
             // A ratio out of range does not mean that the reaction is.
-            *x = if ratio.is_normal() { *x * ratio } else { *x * size / self.scale };
+            *x = if ratio.is_normal() {
+                *x * ratio
+            } else {
+                *x * size / self.scale
+            };
         }
         let largest = max_abs(&s.r);
         if !s.r.iter().all(|x| x.is_finite()) {
-            s = SingleSolution { r: [0.0; D], status: s.status, solved: false };
-        } else if largest < f64::MIN_POSITIVE {
-            // Too small to be held with all its digits.
-            s.solved = false;
+            s = SingleSolution {
+                r: [0.0; D],
+                status: s.status,
+                solved: false,
+            };
+        } else if !(ratio.is_normal() && self.tame && largest >= f64::MIN_POSITIVE) {
+            // The way back may have rounded: judge what is returned.
+            s.solved &= self.residual_of(b, &s.r, mu) <= SOLVED;
         }
         s
     }
@@ -99,12 +135,24 @@ impl<const D: usize> SingleContact<D> {
         if let Some(r) = self.stuck(b, mu)
             && self.residual(&r, b, mu) <= SOLVED
         {
-            return SingleSolution { r, status: Status::Stick, solved: true };
+            return SingleSolution {
+                r,
+                status: Status::Stick,
+                solved: true,
+            };
         }
-        let r = if D == 2 { self.slide_plane(b, mu) } else { self.slide_space(b, mu) };
+        let r = if D == 2 {
+            self.slide_plane(b, mu)
+        } else {
+            self.slide_space(b, mu)
+        };
         let r = self.polish(r, b, mu);
         if self.residual(&r, b, mu) <= SOLVED {
-            return SingleSolution { r, status: Status::Slip, solved: true };
+            return SingleSolution {
+                r,
+                status: Status::Slip,
+                solved: true,
+            };
         }
         self.search(r, b, mu)
     }
@@ -117,7 +165,11 @@ impl<const D: usize> SingleContact<D> {
             r[D - 1] = -b[D - 1] / wnn;
         }
         let solved = self.residual(&r, b, 0.0) <= SOLVED;
-        let status = if tangential_norm(&affine(&self.w, &r, b)) == 0.0 { Status::Stick } else { Status::Slip };
+        let status = if tangential_norm(&affine(&self.w, &r, b)) == 0.0 {
+            Status::Stick
+        } else {
+            Status::Slip
+        };
         SingleSolution { r, status, solved }
     }
 
@@ -163,12 +215,24 @@ impl<const D: usize> SingleContact<D> {
     fn slide_space(&self, b: &Vector<D>, mu: f64) -> Vector<D> {
         let n = D - 1;
         let s = &self.slip;
-        let c = [b[0] - self.w[0][n] * b[n] * s.inv_wnn, b[1] - self.w[1][n] * b[n] * s.inv_wnn];
-        let p = [s.w[1][1] * c[0] - s.w[0][1] * c[1], s.w[0][0] * c[1] - s.w[1][0] * c[0]];
+        let c = [
+            b[0] - self.w[0][n] * b[n] * s.inv_wnn,
+            b[1] - self.w[1][n] * b[n] * s.inv_wnn,
+        ];
+        let p = [
+            s.w[1][1] * c[0] - s.w[0][1] * c[1],
+            s.w[0][0] * c[1] - s.w[1][0] * c[0],
+        ];
         let wc = self.w[n][0] * c[0] + self.w[n][1] * c[1];
         let wp = self.w[n][0] * p[0] + self.w[n][1] * p[1];
         let k = mu * s.inv_wnn;
-        let root = SlipRoot { p, c, k0: k * (wp - b[n] * s.det), k1: k * (wc - b[n] * s.trace), k2: -k * b[n] };
+        let root = SlipRoot {
+            p,
+            c,
+            k0: k * (wp - b[n] * s.det),
+            k1: k * (wc - b[n] * s.trace),
+            k2: -k * b[n],
+        };
         let a = root.find();
         let v = [p[0] + a * c[0], p[1] + a * c[1]];
         let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
@@ -180,18 +244,40 @@ impl<const D: usize> SingleContact<D> {
                 r[i] = -mu * r[n] * v[i] / length;
             }
         }
-        if r.iter().all(|x| x.is_finite()) { r } else { [0.0; D] }
+        if r.iter().all(|x| x.is_finite()) {
+            r
+        } else {
+            [0.0; D]
+        }
     }
 
     /// Scale-free residual: `F` with `rho = 1` over the largest of `b`, `r`, `u`.
     #[inline]
     fn residual(&self, r: &Vector<D>, b: &Vector<D>, mu: f64) -> f64 {
-        let u = affine(&self.w, r, b);
-        let f = natural_map(mu, 1.0, &u, r);
-        let size = 1.0_f64.max(max_abs(r)).max(max_abs(&u));
-        // The maximum forgets NaN, the sum does not.
-        let finite = (f.iter().sum::<f64>() + u.iter().sum::<f64>()).is_finite();
-        if finite { max_abs(&f) / size } else { f64::MAX }
+        residual(mu, &affine(&self.w, r, b), r)
+    }
+
+    /// [`single_residual`] of a reaction in the units of the problem.
+    fn residual_of(&self, b: &Vector<D>, r: &Vector<D>, mu: f64) -> f64 {
+        let size = power_of_two(max_abs(b));
+        let ratio = self.scale / size;
+        let (mut unit, mut reaction) = (*b, *r);
+        for i in 0..D {
+            unit[i] /= size;
+            reaction[i] = if ratio.is_normal() {
+                r[i] * ratio
+            } else {
+                r[i] / size * self.scale
+            };
+        }
+        // No reaction: u = b, even where W over its scale overflows.
+        let free = max_abs(&reaction) == 0.0;
+        let u = if free {
+            unit
+        } else {
+            affine(&self.w, &reaction, &unit)
+        };
+        residual(mu, &u, &reaction)
     }
 
     /// Newton on `u_n = 0, r_t = -mu r_n direction` until it stops paying.
@@ -202,9 +288,11 @@ impl<const D: usize> SingleContact<D> {
             if best.0 <= 4e-16 {
                 break;
             }
-            let Some(r) = self.slip_step(&best.1, b, mu) else { break };
+            let Some(r) = self.slip_step(&best.1, b, mu) else {
+                break;
+            };
             let error = self.residual(&r, b, mu);
-            if !(error < best.0) {
+            if error >= best.0 {
                 break;
             }
             best = (error, r);
@@ -220,7 +308,7 @@ impl<const D: usize> SingleContact<D> {
             e[i] = r[i] - u[i];
         }
         let length = tangential_norm(&e);
-        if !(length > 0.0) {
+        if length == 0.0 || length.is_nan() {
             return None;
         }
         for x in &mut e {
@@ -252,8 +340,9 @@ impl<const D: usize> SingleContact<D> {
     /// Last resort for `W` that is not positive definite: projections from several starts, each polished.
     #[cold]
     fn search(&self, start: Vector<D>, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
-        let mut best = (self.residual(&start, b, mu), start);
+        let mut best = (self.residual(&[0.0; D], b, mu), [0.0; D]);
         let mut consider = |r: Vector<D>| {
+            let r = cone::project(mu, &r);
             let error = self.residual(&r, b, mu);
             if error < best.0 {
                 best = (error, r);
@@ -261,6 +350,7 @@ impl<const D: usize> SingleContact<D> {
         };
         let mut push = [0.0; D];
         push[D - 1] = 1.0;
+        consider(start);
         for first in [[0.0; D], start, push] {
             for rho in [0.2, 1.0] {
                 let mut r = first;
@@ -278,15 +368,37 @@ impl<const D: usize> SingleContact<D> {
         }
         let u = affine(&self.w, &best.1, b);
         let status = crate::law::status(mu, 1.0, &u, &best.1);
-        SingleSolution { r: cone::project(mu, &best.1), status, solved: best.0 <= SOLVED }
+        SingleSolution {
+            r: best.1,
+            status,
+            solved: best.0 <= SOLVED,
+        }
     }
+}
+
+#[inline(always)]
+fn residual<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
+    let f = natural_map(mu, 1.0, u, r);
+    let size = 1.0_f64.max(max_abs(r)).max(max_abs(u));
+    // The maximum forgets NaN, the sum does not.
+    let finite = (f.iter().sum::<f64>() + u.iter().sum::<f64>()).is_finite();
+    if finite { max_abs(&f) / size } else { f64::MAX }
+}
+
+/// The largest power of two not above `x > 0`.
+#[inline(always)]
+fn power_of_two(x: f64) -> f64 {
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
 }
 
 impl Reduced {
     fn new<const D: usize>(w: &Matrix<D>) -> Self {
         let n = D - 1;
         let inv_wnn = 1.0 / w[n][n];
-        let mut s = Reduced { inv_wnn, ..Reduced::default() };
+        let mut s = Reduced {
+            inv_wnn,
+            ..Reduced::default()
+        };
         for i in 0..n {
             for j in 0..n {
                 s.w[i][j] = w[i][j] - w[i][n] * w[n][j] * inv_wnn;
@@ -298,94 +410,30 @@ impl Reduced {
     }
 }
 
-/// `G(a) = k0 + k1 a + k2 a^2 - |p + a c|`, whose root is the ratio of sliding velocity to friction force.
-struct SlipRoot {
-    p: [f64; 2],
-    c: [f64; 2],
-    k0: f64,
-    k1: f64,
-    k2: f64,
-}
-
-impl SlipRoot {
-    #[inline]
-    fn value_and_slope(&self, a: f64) -> (f64, f64) {
-        let v = [self.p[0] + a * self.c[0], self.p[1] + a * self.c[1]];
-        let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
-        let value = self.k0 + a * (self.k1 + a * self.k2) - length;
-        let slope = if length > 0.0 { (v[0] * self.c[0] + v[1] * self.c[1]) / length } else { 0.0 };
-        (value, self.k1 + 2.0 * a * self.k2 - slope)
-    }
-
-    /// Where `k0 + k1 a + k2 a^2 = |p| + a |c|`: there `G >= 0`.
-    #[inline]
-    fn upper_bound(&self) -> f64 {
-        let size = |v: &[f64; 2]| (v[0] * v[0] + v[1] * v[1]).sqrt();
-        let (h, q0) = (0.5 * (self.k1 - size(&self.c)), self.k0 - size(&self.p));
-        let root = (h * h - self.k2 * q0).max(0.0).sqrt();
-        // The form without cancellation for either sign of h.
-        if h <= 0.0 { (root - h) / self.k2 } else { -q0 / (h + root) }
-    }
-
-    #[inline]
-    fn find(&self) -> f64 {
-        let (mut low, mut high) = (0.0, self.upper_bound());
-        if !(high > 0.0) || !high.is_finite() {
-            return 0.0;
-        }
-        let mut a = high;
-        for _ in 0..80 {
-            let (value, slope) = self.value_and_slope(a);
-            if value == 0.0 {
-                break;
-            }
-            if value > 0.0 {
-                high = a;
-            } else {
-                low = a;
-            }
-            let mut next = a - value / slope;
-            if !(next > low && next < high) {
-                // The root may be many decades below the bound: halve the exponent where both ends allow it.
-                next = if low > 0.0 { (low * high).sqrt() } else { 0.03125 * high };
-                if !(next > low && next < high) {
-                    break;
-                }
-            }
-            let done = (next - a).abs() <= 1e-15 * a;
-            a = next;
-            if done {
-                break;
-            }
-        }
-        a
-    }
-}
-
 /// The exact reaction of one contact: `u = W r + b`.
 ///
 /// `w` by rows and `b`, normal last; `mu >= 0` [-]. For positive definite `w` the answer is exact to rounding; otherwise
 /// `solved` tells. Never NaN. For many solutions with the same `w` keep a [`SingleContact`].
 pub fn solve_single<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
-    if !(mu >= 0.0 && mu.is_finite()) || !w.iter().flatten().all(|x| x.is_finite()) {
-        return SingleSolution { r: [0.0; D], status: Status::Separate, solved: false };
+    let sound = mu >= 0.0 && mu.is_finite() && w.iter().flatten().all(|x| x.is_finite());
+    if !sound {
+        return SingleSolution {
+            r: [0.0; D],
+            status: Status::Separate,
+            solved: false,
+        };
     }
     SingleContact::new(w).solve(b, mu)
 }
 
-/// Scale-free residual of one contact, with `rho = 1 / mean diagonal` and the largest of `b`, `r`, `u` as the scale.
-pub fn single_residual<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64, r: &Vector<D>) -> f64 {
-    let contact = SingleContact::new(w);
-    let size = max_abs(b).max(f64::MIN_POSITIVE);
-    let (mut unit, mut reaction) = (*b, *r);
-    for i in 0..D {
-        unit[i] /= size;
-        reaction[i] = reaction[i] / size * contact.scale;
-    }
-    if dot(&unit, &unit) == 0.0 && dot(&reaction, &reaction) == 0.0 {
-        return 0.0;
-    }
-    contact.residual(&reaction, &unit, mu)
+/// Scale-free residual of one contact: `F` with `rho = 1 / w`, `w` near the mean diagonal, over the largest of `b`, `w r`, `u`.
+pub fn single_residual<const D: usize>(
+    w: &Matrix<D>,
+    b: &Vector<D>,
+    mu: f64,
+    r: &Vector<D>,
+) -> f64 {
+    SingleContact::new(w).residual_of(b, r, mu)
 }
 
 #[cfg(test)]

@@ -8,14 +8,24 @@ use crate::conformance::{brick_wall, check_law, check_outcome, half_space, scale
 use crate::delassus::DelassusOperator;
 
 fn settings(method: Method, tolerance: f64) -> SolveSettings {
-    SolveSettings { method, tolerance, ..SolveSettings::default() }
+    SolveSettings {
+        method,
+        tolerance,
+        ..SolveSettings::default()
+    }
 }
 
 fn solved(problem: &ContactProblem, tolerance: f64) -> (Vec<f64>, Outcome) {
     let mut r = Vec::new();
     let outcome = solve(problem, &mut r, &settings(Method::Auto, tolerance));
     check_outcome(problem, &r, &outcome, tolerance).unwrap();
-    assert!(outcome.is_converged(), "{:?} {:e} {:e}", outcome.work, outcome.error, outcome.error_scale_free);
+    assert!(
+        outcome.is_converged(),
+        "{:?} {:e} {:e}",
+        outcome.work,
+        outcome.error,
+        outcome.error_scale_free
+    );
     (r, outcome)
 }
 
@@ -30,7 +40,11 @@ fn elastic_bodies_take_few_newton_steps_cold_and_fewer_warm() {
             let next = half_space(12, mu, 1.03e-2, 1.1 * drag);
             let warm = solve(&next, &mut r, &settings(Method::Auto, 1e-12));
             check_outcome(&next, &r, &warm, 1e-12).unwrap();
-            assert!(warm.is_converged() && warm.work.newton_steps <= 5, "{:?}", warm.work);
+            assert!(
+                warm.is_converged() && warm.work.newton_steps <= 5,
+                "{:?}",
+                warm.work
+            );
             check_law(&next, &r, 1e-10).unwrap();
         }
     }
@@ -61,7 +75,10 @@ fn hyperstatic_walls_are_solved_and_obey_the_law() {
 #[test]
 fn a_dense_and_a_block_sparse_wall_are_the_same_problem() {
     let sparse = brick_wall(3, 3, 0.5, 0.4);
-    let dense = ContactProblem { w: Delassus::Dense(sparse.w.to_dense()), ..sparse.clone() };
+    let dense = ContactProblem {
+        w: Delassus::Dense(sparse.w.to_dense()),
+        ..sparse.clone()
+    };
     let (a, b) = (solved(&sparse, 1e-11).1, solved(&dense, 1e-11).1);
     let size = sparse.q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     for (x, y) in a.u.iter().zip(&b.u) {
@@ -77,11 +94,18 @@ fn every_method_is_honest_and_solves_what_is_easy() {
         for problem in [&easy, &hard] {
             for tolerance in [1e-4, 1e-8, 1e-12] {
                 let mut r = vec![f64::NAN; 3];
-                let limited = SolveSettings { max_iterations: 3000, ..settings(method, tolerance) };
+                let limited = SolveSettings {
+                    max_iterations: 3000,
+                    ..settings(method, tolerance)
+                };
                 let outcome = solve(problem, &mut r, &limited);
                 check_outcome(problem, &r, &outcome, tolerance).unwrap();
                 if std::ptr::eq(problem, &easy) {
-                    assert!(outcome.is_converged(), "{method:?} {tolerance:e} {:e}", outcome.error_scale_free);
+                    assert!(
+                        outcome.is_converged(),
+                        "{method:?} {tolerance:e} {:e}",
+                        outcome.error_scale_free
+                    );
                 }
             }
         }
@@ -92,12 +116,23 @@ fn every_method_is_honest_and_solves_what_is_easy() {
 fn a_spent_budget_returns_the_best_point_with_its_diagnosis() {
     let problem = brick_wall(5, 4, 0.6, 0.5);
     let mut r = Vec::new();
-    let few = SolveSettings { max_iterations: 4, ..settings(Method::GaussSeidel, 1e-12) };
+    let few = SolveSettings {
+        max_iterations: 4,
+        ..settings(Method::GaussSeidel, 1e-12)
+    };
     let outcome = solve(&problem, &mut r, &few);
     check_outcome(&problem, &r, &outcome, 1e-12).unwrap();
     assert!(!outcome.is_converged() && outcome.error < 1.0);
-    assert!(outcome.diagnostics.iter().any(|d| d.penetration > 0.0 || d.misalignment > 0.0));
-    let nothing = SolveSettings { max_iterations: 0, ..few };
+    assert!(
+        outcome
+            .diagnostics
+            .iter()
+            .any(|d| d.penetration > 0.0 || d.misalignment > 0.0)
+    );
+    let nothing = SolveSettings {
+        max_iterations: 0,
+        ..few
+    };
     for method in Method::ALL {
         let mut r = Vec::new();
         let outcome = solve(&problem, &mut r, &SolveSettings { method, ..nothing });
@@ -112,13 +147,26 @@ fn refused_data_say_why_and_return_zero() {
     let mut r = vec![1.0; 12];
     let outcome = solve(&problem, &mut r, &SolveSettings::default());
     check_outcome(&problem, &r, &outcome, 1e-8).unwrap();
-    assert!(matches!(outcome.refusal, Some(ContactError::NotFinite { what: "q", contact: 1, .. })));
+    assert!(matches!(
+        outcome.refusal,
+        Some(ContactError::NotFinite {
+            what: "q",
+            contact: 1,
+            ..
+        })
+    ));
     assert!(!outcome.is_converged() && r.iter().all(|x| *x == 0.0));
 }
 
 #[test]
 fn no_contacts_and_open_contacts_need_no_work() {
-    let none = ContactProblem::new(Delassus::Dense(Mat::new()), Vec::new(), Vec::new(), Cone::Spatial).unwrap();
+    let none = ContactProblem::new(
+        Delassus::Dense(Mat::new()),
+        Vec::new(),
+        Vec::new(),
+        Cone::Spatial,
+    )
+    .unwrap();
     let mut problem = half_space(3, 0.5, 1e-2, 1.0);
     for c in 0..9 {
         problem.q[3 * c + 2] = 0.1;
@@ -127,7 +175,10 @@ fn no_contacts_and_open_contacts_need_no_work() {
         for method in Method::ALL {
             let mut r = Vec::new();
             let outcome = solve(&problem, &mut r, &settings(method, 1e-14));
-            assert!(outcome.is_converged() && outcome.iterations == 0, "{method:?}");
+            assert!(
+                outcome.is_converged() && outcome.iterations == 0,
+                "{method:?}"
+            );
         }
     }
 }
@@ -136,10 +187,19 @@ fn no_contacts_and_open_contacts_need_no_work() {
 fn a_problem_without_solution_is_reported() {
     // Two walls close in on a rigid body that cannot yield: W is zero along q.
     let w = Mat::from_fn(2, 2, |i, j| if i == j { 1.0 } else { -1.0 });
-    let problem = ContactProblem::new(Delassus::Dense(w), vec![-1.0, -1.0], vec![0.0; 2], Cone::Frictionless).unwrap();
+    let problem = ContactProblem::new(
+        Delassus::Dense(w),
+        vec![-1.0, -1.0],
+        vec![0.0; 2],
+        Cone::Frictionless,
+    )
+    .unwrap();
     for method in Method::ALL {
         let mut r = Vec::new();
-        let limited = SolveSettings { max_iterations: 2000, ..settings(method, 1e-8) };
+        let limited = SolveSettings {
+            max_iterations: 2000,
+            ..settings(method, 1e-8)
+        };
         let outcome = solve(&problem, &mut r, &limited);
         check_outcome(&problem, &r, &outcome, 1e-8).unwrap();
         // The Siconos norm alone is fooled: r grows without end, and the error is divided by it.
@@ -168,21 +228,40 @@ impl DelassusOperator for OnlyProducts {
 #[test]
 fn an_operator_is_enough() {
     let dense = half_space(5, 0.3, 1e-2, 5e-3);
-    let hidden = ContactProblem { w: Delassus::Operator(Arc::new(OnlyProducts(dense.w.clone()))), ..dense.clone() };
+    let hidden = ContactProblem {
+        w: Delassus::Operator(Arc::new(OnlyProducts(dense.w.clone()))),
+        ..dense.clone()
+    };
     let (r, _) = solved(&dense, 1e-10);
-    for method in [Method::Auto, Method::Uzawa, Method::UzawaAnderson, Method::GaussSeidel] {
+    for method in [
+        Method::Auto,
+        Method::Uzawa,
+        Method::UzawaAnderson,
+        Method::GaussSeidel,
+    ] {
         let mut found = Vec::new();
         let outcome = solve(&hidden, &mut found, &settings(method, 1e-10));
         check_outcome(&hidden, &found, &outcome, 1e-10).unwrap();
         assert!(outcome.is_converged(), "{method:?}");
         for (a, b) in found.iter().zip(&r) {
-            assert!((a - b).abs() < 1e-6 * r.iter().fold(0.0_f64, |m, x| m.max(x.abs())), "{method:?}");
+            assert!(
+                (a - b).abs() < 1e-6 * r.iter().fold(0.0_f64, |m, x| m.max(x.abs())),
+                "{method:?}"
+            );
         }
     }
 }
 
 /// `W = A A^T + shift`, unsymmetric by `twist`, `A` with `rank` columns.
-fn random_problem(cone: Cone, contacts: usize, rank: usize, numbers: &[f64], twist: f64, shift: f64, mu: f64) -> ContactProblem {
+fn random_problem(
+    cone: Cone,
+    contacts: usize,
+    rank: usize,
+    numbers: &[f64],
+    twist: f64,
+    shift: f64,
+    mu: f64,
+) -> ContactProblem {
     let n = contacts * cone.dim();
     let a = |i: usize, k: usize| numbers[(i * 31 + k * 17 + i * k) % numbers.len()];
     let w = Mat::from_fn(n, n, |i, j| {
@@ -191,11 +270,28 @@ fn random_problem(cone: Cone, contacts: usize, rank: usize, numbers: &[f64], twi
         symmetric + skew + shift * f64::from(u8::from(i == j))
     });
     // q = -W r + v with r in the cone and v >= 0 along n: compatible also where W is singular.
-    let push: Vec<f64> = (0..n).map(|i| if i % cone.dim() == cone.dim() - 1 { a(i, 5).abs() } else { 0.1 * mu.min(1.0) * a(i, 9) }).collect();
+    let push: Vec<f64> = (0..n)
+        .map(|i| {
+            if i % cone.dim() == cone.dim() - 1 {
+                a(i, 5).abs()
+            } else {
+                0.1 * mu.min(1.0) * a(i, 9)
+            }
+        })
+        .collect();
     let mut q = vec![0.0; n];
     Delassus::Dense(w.clone()).times(&push, &mut q);
-    let q = q.iter().enumerate().map(|(i, x)| -x + 0.1 * a(i, 3).abs() * f64::from(u8::from(i % 2 == 0))).collect();
-    ContactProblem { w: Delassus::Dense(w), q, mu: vec![mu; contacts], cone }
+    let q = q
+        .iter()
+        .enumerate()
+        .map(|(i, x)| -x + 0.1 * a(i, 3).abs() * f64::from(u8::from(i % 2 == 0)))
+        .collect();
+    ContactProblem {
+        w: Delassus::Dense(w),
+        q,
+        mu: vec![mu; contacts],
+        cone,
+    }
 }
 
 proptest! {

@@ -46,7 +46,7 @@ pub(crate) fn uzawa<const D: usize>(
             let swept = std::mem::replace(&mut x.r, r);
             x.refresh(truth);
             improved |= best.keep_better(&x);
-            if !(x.errors.scale_free <= 2.0 * plain) {
+            if x.errors.scale_free > 2.0 * plain {
                 x.r = swept;
                 x.refresh(truth);
                 mixer.forget();
@@ -58,7 +58,10 @@ pub(crate) fn uzawa<const D: usize>(
 
 fn correct<const D: usize>(problem: &ContactProblem, truth: &Truth<'_>, rho: f64, x: &mut Iterate) {
     for (c, (&mu, scale)) in problem.mu.iter().zip(truth.scales()).enumerate() {
-        let (mut z, v) = (load::<D>(&x.r, c), cone::modified_velocity(mu, &load::<D>(&x.u, c)));
+        let (mut z, v) = (
+            load::<D>(&x.r, c),
+            cone::modified_velocity(mu, &load::<D>(&x.u, c)),
+        );
         for i in 0..D {
             z[i] -= rho / scale * v[i];
         }
@@ -70,7 +73,9 @@ fn correct<const D: usize>(problem: &ContactProblem, truth: &Truth<'_>, rho: f64
 fn largest_eigenvalue<const D: usize>(problem: &ContactProblem, truth: &Truth<'_>) -> f64 {
     let n = problem.q.len();
     let roots: Vec<f64> = truth.scales().iter().map(|w| w.sqrt()).collect();
-    let mut x: Vec<f64> = (0..n).map(|i| 1.0 + 0.5 * ((i % 7) as f64 - 3.0) / 7.0).collect();
+    let mut x: Vec<f64> = (0..n)
+        .map(|i| 1.0 + 0.5 * ((i % 7) as f64 - 3.0) / 7.0)
+        .collect();
     let mut y = vec![0.0; n];
     let mut value = 1.0;
     for _ in 0..20 {

@@ -1,4 +1,5 @@
 use super::*;
+use crate::local::dot;
 use proptest::prelude::*;
 
 /// A small generator of our own: a million cases need neither shrinking nor strategies.
@@ -39,8 +40,16 @@ impl Random {
             return self.compliance(decades);
         }
         let b = b.map(|x| x / length);
-        let c = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-        let e = [1.0, 10f64.powf(-decades * self.unit()), 10f64.powf(-decades * self.unit())];
+        let c = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
+        let e = [
+            1.0,
+            10f64.powf(-decades * self.unit()),
+            10f64.powf(-decades * self.unit()),
+        ];
         let mut w = [[0.0; 3]; 3];
         for i in 0..3 {
             for j in 0..3 {
@@ -57,8 +66,15 @@ fn a_million_contacts_of_any_scale_are_solved() {
     let mut seen = [0usize; 3];
     for k in 0..1_000_000 {
         let mut w = random.compliance(8.0);
-        let mu = if k % 20 == 0 { 0.0 } else { 5.0 * random.unit() };
-        let (size_w, size_b) = (10f64.powf(100.0 * random.sign()), 10f64.powf(150.0 * random.sign()));
+        let mu = if k % 20 == 0 {
+            0.0
+        } else {
+            5.0 * random.unit()
+        };
+        let (size_w, size_b) = (
+            10f64.powf(100.0 * random.sign()),
+            10f64.powf(150.0 * random.sign()),
+        );
         w.iter_mut().flatten().for_each(|x| *x *= size_w);
         let mut b = random.direction().map(|x| x * size_b);
         if k % 4 != 0 {
@@ -66,7 +82,10 @@ fn a_million_contacts_of_any_scale_are_solved() {
         }
         let s = solve_single(&w, &b, mu);
         let error = single_residual(&w, &b, mu, &s.r);
-        assert!(s.solved && error <= 1e-12, "{w:?} {b:?} {mu} {s:?} {error:e}");
+        assert!(
+            s.solved && error <= 1e-12,
+            "{w:?} {b:?} {mu} {s:?} {error:e}"
+        );
         seen[s.status as usize] += 1;
     }
     assert!(seen.iter().all(|n| *n > 100_000), "{seen:?}");
@@ -131,7 +150,10 @@ fn a_slipping_contact_matches_a_scan_of_all_directions() {
         }
         compared += 1;
         let distance = max_abs(&crate::local::difference(&best.1, &s.r));
-        assert!(distance < 1e-2 * (1.0 + max_abs(&s.r)), "{w:?} {b:?} {mu} {s:?} {best:?}");
+        assert!(
+            distance < 1e-2 * (1.0 + max_abs(&s.r)),
+            "{w:?} {b:?} {mu} {s:?} {best:?}"
+        );
     }
     assert!(compared > 80, "{compared}");
 }
@@ -149,7 +171,15 @@ fn plane_and_frictionless_contacts_by_hand() {
     assert_eq!(solve_single(&w, &[3.0, 0.0], 0.9).r, [0.0, 0.0]);
     assert_eq!(solve_single(&[[4.0]], &[-2.0], 0.0).r, [0.5]);
     assert_eq!(solve_single(&[[4.0]], &[2.0], 0.0).status, Status::Separate);
-    assert_eq!(solve_single(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]], &[1.0, 1.0, -4.0], 0.0).r, [0.0, 0.0, 2.0]);
+    assert_eq!(
+        solve_single(
+            &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]],
+            &[1.0, 1.0, -4.0],
+            0.0
+        )
+        .r,
+        [0.0, 0.0, 2.0]
+    );
 }
 
 proptest! {
@@ -165,12 +195,13 @@ proptest! {
 
     #[test]
     fn nothing_makes_a_number_that_is_none(
-        w in prop::array::uniform3(prop::array::uniform3(any::<f64>())), b in prop::array::uniform3(any::<f64>()), mu in any::<f64>()
+        w in prop::array::uniform3(prop::array::uniform3(any::<f64>())), b in prop::array::uniform3(any::<f64>()), mu in prop_oneof![0.0..1e3_f64, Just(f64::NAN), Just(-1.0)]
     ) {
         let s = solve_single(&w, &b, mu);
         prop_assert!(s.r.iter().all(|x| x.is_finite()));
         if s.solved {
-            prop_assert!(single_residual(&w, &b, mu, &s.r) <= 1e-12);
+            let error = single_residual(&w, &b, mu, &s.r);
+            prop_assert!(error <= 1e-12, "{s:?} {error:e}");
         }
     }
 
