@@ -12,19 +12,38 @@ struct Step {
 }
 
 const STEPS: &[Step] = &[
-    Step { name: "format", arguments: &["fmt", "--all", "--check"], environment: &[] },
     Step {
-        name: "lints",
-        arguments: &["clippy", "--workspace", "--all-targets", "--", "-D", "warnings"],
+        name: "format",
+        arguments: &["fmt", "--all", "--check"],
         environment: &[],
     },
-    Step { name: "the README's test command", arguments: &["test", "--workspace"], environment: &[] },
+    Step {
+        name: "lints",
+        arguments: &[
+            "clippy",
+            "--workspace",
+            "--all-targets",
+            "--",
+            "-D",
+            "warnings",
+        ],
+        environment: &[],
+    },
+    Step {
+        name: "the README's test command",
+        arguments: &["test", "--workspace"],
+        environment: &[],
+    },
     Step {
         name: "documentation",
         arguments: &["doc", "--workspace", "--no-deps"],
         environment: &[("RUSTDOCFLAGS", "-D warnings")],
     },
-    Step { name: "benches compile", arguments: &["bench", "--workspace", "--no-run"], environment: &[] },
+    Step {
+        name: "benches compile",
+        arguments: &["bench", "--workspace", "--no-run"],
+        environment: &[],
+    },
     Step {
         name: "the README's main command",
         arguments: &["run", "--release", "--", "run", "impact"],

@@ -11,7 +11,10 @@ use clap::{Parser, Subcommand};
 type Outcome = Result<(), String>;
 
 #[derive(Parser)]
-#[command(name = "cargo xtask", about = "Checks and studies of the setae workspace")]
+#[command(
+    name = "cargo xtask",
+    about = "Checks and studies of the setae workspace"
+)]
 struct Arguments {
     #[command(subcommand)]
     task: Task,

@@ -12,14 +12,24 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("fe-core", &["hyperelastic"]),
     ("contact-bipotential", &["fe-core"]),
     ("nscd", &["fe-core", "contact-bipotential"]),
-    ("scenarios", &["hyperelastic", "fe-core", "contact-bipotential", "nscd"]),
+    (
+        "scenarios",
+        &["hyperelastic", "fe-core", "contact-bipotential", "nscd"],
+    ),
 ];
 
 /// Longest file that is still one room.
 const LONGEST_FILE: usize = 500;
 
 /// What only the crate `scenarios` may do.
-const OUTSIDE_WORLD: &[&str] = &["std::fs", "std::time", "std::env", "println!", "eprintln!", "HashMap"];
+const OUTSIDE_WORLD: &[&str] = &[
+    "std::fs",
+    "std::time",
+    "std::env",
+    "println!",
+    "eprintln!",
+    "HashMap",
+];
 
 pub(crate) fn run() -> Outcome {
     let mut faults = Vec::new();
@@ -29,13 +39,25 @@ pub(crate) fn run() -> Outcome {
         let crate_root = root().join("crates").join(name);
         for file in rust_files(&crate_root)? {
             let text = read(&file)?;
-            let shown = file.strip_prefix(root()).unwrap_or(&file).display().to_string();
+            let shown = file
+                .strip_prefix(root())
+                .unwrap_or(&file)
+                .display()
+                .to_string();
             check_file(&shown, name, &text, &mut faults);
             check_references(&shown, &text, &references, &mut faults);
             check_units(&shown, &text, &mut faults);
         }
     }
-    if faults.is_empty() { Ok(()) } else { Err(format!("{} faults\n  {}", faults.len(), faults.join("\n  "))) }
+    if faults.is_empty() {
+        Ok(())
+    } else {
+        Err(format!(
+            "{} faults\n  {}",
+            faults.len(),
+            faults.join("\n  ")
+        ))
+    }
 }
 
 /// Each crate depends on the crates below it only; tests may look anywhere.
@@ -44,9 +66,13 @@ fn check_arrows(faults: &mut Vec<String>) -> Outcome {
         let manifest = read(&root().join("crates").join(name).join("Cargo.toml"))?;
         let dependencies = section(&manifest, "[dependencies]");
         for (other, _) in ARROWS {
-            let depends = dependencies.lines().any(|l| l.trim_start().starts_with(&format!("{other}.")));
+            let depends = dependencies
+                .lines()
+                .any(|l| l.trim_start().starts_with(&format!("{other}.")));
             if depends && !allowed.contains(other) {
-                faults.push(format!("crates/{name}/Cargo.toml: {name} must not depend on {other}"));
+                faults.push(format!(
+                    "crates/{name}/Cargo.toml: {name} must not depend on {other}"
+                ));
             }
         }
     }
@@ -54,27 +80,38 @@ fn check_arrows(faults: &mut Vec<String>) -> Outcome {
 }
 
 fn section<'a>(manifest: &'a str, title: &str) -> &'a str {
-    let start = manifest.find(title).map_or(manifest.len(), |i| i + title.len());
+    let start = manifest
+        .find(title)
+        .map_or(manifest.len(), |i| i + title.len());
     let rest = &manifest[start..];
     rest.find("\n[").map_or(rest, |end| &rest[..end])
 }
 
 fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
     if shown.ends_with("mod.rs") {
-        faults.push(format!("{shown}: name the module after its folder instead of mod.rs"));
+        faults.push(format!(
+            "{shown}: name the module after its folder instead of mod.rs"
+        ));
     }
     let lines = text.lines().count();
     if lines > LONGEST_FILE && !shown.contains("tests") {
         faults.push(format!("{shown}: {lines} lines; is it still one room?"));
     }
-    if krate == "scenarios" || shown.contains("/tests/") || shown.contains("/examples/") || shown.ends_with("tests.rs") {
+    if krate == "scenarios"
+        || shown.contains("/tests/")
+        || shown.contains("/examples/")
+        || shown.ends_with("tests.rs")
+    {
         return;
     }
     let product = text.split("#[cfg(test)]").next().unwrap_or(text);
     for word in OUTSIDE_WORLD {
         let used = |l: &&str| l.contains(word) && !l.trim_start().starts_with("//");
         if let Some(line) = product.lines().find(used) {
-            faults.push(format!("{shown}: `{word}` belongs to the crate scenarios only: {}", line.trim()));
+            faults.push(format!(
+                "{shown}: `{word}` belongs to the crate scenarios only: {}",
+                line.trim()
+            ));
         }
     }
 }
@@ -83,10 +120,16 @@ fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
 fn check_references(shown: &str, text: &str, keys: &BTreeSet<String>, faults: &mut Vec<String>) {
     for line in text.lines().filter(|l| l.trim_start().starts_with("//")) {
         for piece in line.split('[').skip(1) {
-            let Some((inside, _)) = piece.split_once(']') else { continue };
-            let Some((key, place)) = inside.split_once(',') else { continue };
+            let Some((inside, _)) = piece.split_once(']') else {
+                continue;
+            };
+            let Some((key, place)) = inside.split_once(',') else {
+                continue;
+            };
             if place.trim_start().starts_with("eq") && !keys.contains(key.trim()) {
-                faults.push(format!("{shown}: reference [{inside}] is not in docs/references.bib"));
+                faults.push(format!(
+                    "{shown}: reference [{inside}] is not in docs/references.bib"
+                ));
             }
         }
     }
@@ -105,7 +148,9 @@ fn check_units(shown: &str, text: &str, faults: &mut Vec<String>) {
             && kind.trim_end_matches(',') == "f64"
             && !comment.contains('[')
         {
-            faults.push(format!("{shown}: public field `{name}` has no unit in its comment, e.g. [Pa] or [-]"));
+            faults.push(format!(
+                "{shown}: public field `{name}` has no unit in its comment, e.g. [Pa] or [-]"
+            ));
         }
         if !line.starts_with("#[") {
             comment.clear();
@@ -116,7 +161,10 @@ fn check_units(shown: &str, text: &str, faults: &mut Vec<String>) {
 fn bibliography_keys() -> Result<BTreeSet<String>, String> {
     let text = read(&root().join("docs/references.bib"))?;
     let entries = text.lines().filter(|l| l.starts_with('@'));
-    Ok(entries.filter_map(|l| l.split_once('{')).map(|(_, key)| key.trim_end_matches(',').to_owned()).collect())
+    Ok(entries
+        .filter_map(|l| l.split_once('{'))
+        .map(|(_, key)| key.trim_end_matches(',').to_owned())
+        .collect())
 }
 
 fn rust_files(folder: &Path) -> Result<Vec<PathBuf>, String> {

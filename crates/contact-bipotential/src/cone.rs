@@ -2,7 +2,7 @@
 //!
 //! `K = { r : |r_t| <= mu r_n }` holds the admissible reactions, its dual `K* = { v : v_n >= mu |v_t| }` the modified
 //! velocities `u + mu |u_t| n`. Contact and friction together say `r in K`, `u + mu |u_t| n in K*`, orthogonal
-//! \[deSaxce1998\]: one equation, `r = Proj_K(r - rho (u + mu |u_t| n))` for any `rho > 0` [Feng2007, eq. 28].
+//! \[deSaxce1998\]: one equation, `r = Proj_K(r - rho (u + mu |u_t| n))` for any `rho > 0` [Hu2022, eq. 31].
 
 use crate::error::ContactError;
 use crate::local::{Vector, dot, tangential_norm};

@@ -58,10 +58,13 @@ impl BodySystem {
         let dim = solid.dim();
         let free = |&n: &u32| (0..dim).any(|c| !fixed[dim * n as usize + c]);
         let nodes: Vec<u32> = solid.bodies()[index].iter().copied().filter(free).collect();
-        let (last, interior): (Vec<u32>, Vec<u32>) = nodes.iter().partition(|&&n| candidate[n as usize]);
+        let (last, interior): (Vec<u32>, Vec<u32>) =
+            nodes.iter().partition(|&&n| candidate[n as usize]);
         let order = elimination_order(graph, &interior, &last);
         let free_dofs = |nodes: &[u32]| -> Vec<u32> {
-            let all = nodes.iter().flat_map(|&n| (0..dim).map(move |c| (dim * n as usize + c) as u32));
+            let all = nodes
+                .iter()
+                .flat_map(|&n| (0..dim).map(move |c| (dim * n as usize + c) as u32));
             all.filter(|&d| !fixed[d as usize]).collect()
         };
         let first_candidate = free_dofs(&order[..interior.len()]).len();
@@ -71,7 +74,10 @@ impl BodySystem {
             equation[d as usize] = k as u32;
         }
         let pattern = SymmetricPattern::new(solid, &equation, dofs.len())?;
-        let lower = LowerPattern { pointers: pattern.column_pointers(), rows: pattern.row_indices() };
+        let lower = LowerPattern {
+            pointers: pattern.column_pointers(),
+            rows: pattern.row_indices(),
+        };
         let n = dofs.len();
         Ok(Self {
             index,
@@ -99,7 +105,7 @@ impl BodySystem {
 
     /// Remembers an observed contraction.
     pub(crate) fn learn_contraction(&mut self, rate: f64) {
-        self.contraction = Some(rate);
+        self.contraction = rate.is_finite().then_some(rate);
     }
 
     /// Compliance of the candidate surface, if it was asked for since the last factorization.
@@ -140,7 +146,12 @@ impl BodySystem {
 
     /// Largest diagonal entry of the matrix in use [N/m].
     pub(crate) fn largest_diagonal(&self) -> f64 {
-        self.pattern.column_pointers().iter().take(self.dofs.len()).map(|&k| self.values[k]).fold(0.0, f64::max)
+        self.pattern
+            .column_pointers()
+            .iter()
+            .take(self.dofs.len())
+            .map(|&k| self.values[k])
+            .fold(0.0, f64::max)
     }
 
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
@@ -157,12 +168,17 @@ impl BodySystem {
         self.contraction = None;
         self.condensed = None;
         self.surface = None;
-        self.pattern.gather_tangent(work, weights.stiffness, &mut self.values);
+        self.pattern
+            .gather_tangent(work, weights.stiffness, &mut self.values);
         self.largest_stiffness = self.largest_diagonal();
         if let Some((initial, factor)) = parts.initial_stiffness {
             let mut damping = vec![0.0; self.values.len()];
-            self.pattern.gather_tangent(initial, weights.damping * factor, &mut damping);
-            self.values.iter_mut().zip(&damping).for_each(|(a, d)| *a += d);
+            self.pattern
+                .gather_tangent(initial, weights.damping * factor, &mut damping);
+            self.values
+                .iter_mut()
+                .zip(&damping)
+                .for_each(|(a, d)| *a += d);
         }
         let mass = weights.mass + weights.damping * parts.mass_damping;
         if mass != 0.0 {
@@ -174,18 +190,34 @@ impl BodySystem {
     }
 
     fn factorize_shifted(&mut self, counters: &mut Counters) -> Result<(), StepFailure> {
-        let Self { pattern, factor, values, .. } = self;
-        let lower = LowerPattern { pointers: pattern.column_pointers(), rows: pattern.row_indices() };
+        let Self {
+            pattern,
+            factor,
+            values,
+            ..
+        } = self;
+        let lower = LowerPattern {
+            pointers: pattern.column_pointers(),
+            rows: pattern.row_indices(),
+        };
         let diagonal: Vec<usize> = lower.pointers[..lower.pointers.len() - 1].to_vec();
-        let scale = diagonal.iter().map(|&k| values[k].abs()).fold(0.0, f64::max);
+        let scale = diagonal
+            .iter()
+            .map(|&k| values[k].abs())
+            .fold(0.0, f64::max);
         let mut shift = 1e-4;
         loop {
             counters.factorizations += 1;
-            let Err(bad) = factor.factorize(lower, values) else { return Ok(()) };
+            let Err(bad) = factor.factorize(lower, values) else {
+                return Ok(());
+            };
             counters.indefinite_tangents += u64::from(shift == 1e-4);
             if shift > 10.0 {
                 let node = self.dofs[bad.equation] as usize;
-                return Err(StepFailure::Indefinite { body: self.index, node });
+                return Err(StepFailure::Indefinite {
+                    body: self.index,
+                    node,
+                });
             }
             diagonal.iter().for_each(|&k| values[k] += shift * scale);
             shift *= 10.0;
@@ -193,7 +225,11 @@ impl BodySystem {
     }
 
     /// The compliance of the candidate surface, from the trailing block of the factor.
-    pub(crate) fn condense(&mut self, total_dofs: usize, counters: &mut Counters) -> Result<(), StepFailure> {
+    pub(crate) fn condense(
+        &mut self,
+        total_dofs: usize,
+        counters: &mut Counters,
+    ) -> Result<(), StepFailure> {
         if self.condensed.is_some() {
             return Ok(());
         }
@@ -240,7 +276,10 @@ impl BodySystem {
         if let (Some(f), Some(surface)) = (f, &self.surface) {
             let on_surface: Vec<f64> = self.dofs[first..].iter().map(|&d| f[d as usize]).collect();
             surface.add_force(&on_surface, &mut self.forward[first..]);
-            self.rhs[first..].iter_mut().zip(&on_surface).for_each(|(b, f)| *b += f);
+            self.rhs[first..]
+                .iter_mut()
+                .zip(&on_surface)
+                .for_each(|(b, f)| *b += f);
             scale += norm(&on_surface);
         }
         self.solution.copy_from_slice(&self.forward);
@@ -258,7 +297,10 @@ impl BodySystem {
         if scale == 0.0 {
             return Ok(());
         }
-        let lower = LowerPattern { pointers: self.pattern.column_pointers(), rows: self.pattern.row_indices() };
+        let lower = LowerPattern {
+            pointers: self.pattern.column_pointers(),
+            rows: self.pattern.row_indices(),
+        };
         let mut worst = f64::INFINITY;
         for attempt in 0..3 {
             let mut left = self.rhs.clone();
@@ -274,9 +316,15 @@ impl BodySystem {
             counters.refinements += 1;
             self.factor.forward(&mut left);
             self.factor.backward(&mut left);
-            self.solution.iter_mut().zip(&left).for_each(|(x, dx)| *x += dx);
+            self.solution
+                .iter_mut()
+                .zip(&left)
+                .for_each(|(x, dx)| *x += dx);
         }
-        Err(StepFailure::Linear { body: self.index, residual: worst })
+        Err(StepFailure::Linear {
+            body: self.index,
+            residual: worst,
+        })
     }
 }
 

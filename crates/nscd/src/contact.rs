@@ -1,7 +1,10 @@
 //! The contact side of a step: candidates, local variable, local problem, error of the law.
 
 use contact_bipotential::cone::project;
-use contact_bipotential::{CompliancePart, Contact, ContactMap, ContactProblem, Cone, Delassus, SequenceSolver, SolveSettings};
+use contact_bipotential::{
+    CompliancePart, Cone, Contact, ContactMap, ContactProblem, Delassus, SequenceSolver,
+    SolveSettings,
+};
 use faer::Mat;
 
 use crate::body::BodySystem;
@@ -31,8 +34,21 @@ pub(crate) struct ContactMemory {
 impl ContactMemory {
     pub(crate) fn new(model: &Model) -> Self {
         let cone = cone_of(model).dim();
-        let sized = |k: usize| model.interfaces.iter().map(|i| vec![0.0; k * i.slave.len()]).collect();
-        Self { forces: sized(cone), stiffness: sized(1), cone, solver: SequenceSolver::default(), kept: None, epochs: Vec::new() }
+        let sized = |k: usize| {
+            model
+                .interfaces
+                .iter()
+                .map(|i| vec![0.0; k * i.slave.len()])
+                .collect()
+        };
+        Self {
+            forces: sized(cone),
+            stiffness: sized(1),
+            cone,
+            solver: SequenceSolver::default(),
+            kept: None,
+            epochs: Vec::new(),
+        }
     }
 
     /// The remembered force of every contact of a map.
@@ -40,7 +56,9 @@ impl ContactMemory {
         let cone = self.cone;
         map.contacts
             .iter()
-            .flat_map(|c| &self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)])
+            .flat_map(|c| {
+                &self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)]
+            })
             .copied()
             .collect()
     }
@@ -58,8 +76,26 @@ impl ContactMemory {
 
     /// Rows of the contacts that have a force.
     pub(crate) fn rows(&self) -> usize {
-        let pressed = |f: &Vec<f64>| f.chunks_exact(self.cone).filter(|r| r[self.cone - 1] > 0.0).count();
+        let pressed = |f: &Vec<f64>| {
+            f.chunks_exact(self.cone)
+                .filter(|r| r[self.cone - 1] > 0.0)
+                .count()
+        };
         self.cone * self.forces.iter().map(pressed).sum::<usize>()
+    }
+
+    /// All remembered forces, one after the other.
+    pub(crate) fn flat_forces(&self) -> impl Iterator<Item = f64> + '_ {
+        self.forces.iter().flatten().copied()
+    }
+
+    /// Overwrites the forces in the order of [`Self::flat_forces`].
+    pub(crate) fn set_flat_forces(&mut self, values: &[f64]) {
+        self.forces
+            .iter_mut()
+            .flatten()
+            .zip(values)
+            .for_each(|(f, v)| *f = *v);
     }
 
     /// No contact has a force.
@@ -72,7 +108,8 @@ impl ContactMemory {
         let cone = self.cone;
         self.clear();
         for (c, force) in map.contacts.iter().zip(r.chunks_exact(cone)) {
-            self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)].copy_from_slice(force);
+            self.forces[c.interface][cone * c.slave_index..cone * (c.slave_index + 1)]
+                .copy_from_slice(force);
         }
     }
 }
@@ -90,7 +127,13 @@ pub(crate) fn cone_of(model: &Model) -> Cone {
 
 /// Local variable of every contact of `map` at an iterate [m]: slip of the step and gap, or at the
 /// velocity level the end velocity times the displacement that a unit of it stands for.
-pub(crate) fn local_variable(frame: &StepFrame<'_>, map: &ContactMap, cone: usize, u: &[f64], v: &[f64]) -> Vec<f64> {
+pub(crate) fn local_variable(
+    frame: &StepFrame<'_>,
+    map: &ContactMap,
+    cone: usize,
+    u: &[f64],
+    v: &[f64],
+) -> Vec<f64> {
     match frame.model.scheme.contact {
         ContactLevel::Position => {
             let mut x = relative_displacement(frame, map, u);
@@ -114,7 +157,11 @@ pub(crate) fn local_variable(frame: &StepFrame<'_>, map: &ContactMap, cone: usiz
 }
 
 /// Displacement of the slave relative to the master in the step, in local frames [m].
-pub(crate) fn relative_displacement(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> Vec<f64> {
+pub(crate) fn relative_displacement(
+    frame: &StepFrame<'_>,
+    map: &ContactMap,
+    u: &[f64],
+) -> Vec<f64> {
     let du: Vec<f64> = u.iter().zip(&frame.now.u).map(|(a, b)| a - b).collect();
     relative(map, &du, 1.0)
 }
@@ -129,7 +176,9 @@ fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
     let mut offset = x.clone();
     map.apply(w, &mut x);
     map.slip_offsets(&mut offset);
-    x.iter_mut().zip(&offset).for_each(|(x, o)| *x += obstacle * o);
+    x.iter_mut()
+        .zip(&offset)
+        .for_each(|(x, o)| *x += obstacle * o);
     x
 }
 
@@ -144,7 +193,12 @@ pub(crate) fn local_axes(cone: usize) -> &'static [usize] {
 
 /// The contacts of a map that are kept.
 pub(crate) fn filtered(map: &ContactMap, keep: impl Fn(usize, &Contact) -> bool) -> ContactMap {
-    let kept = map.contacts.iter().enumerate().filter(|(k, c)| keep(*k, c)).map(|(_, c)| *c);
+    let kept = map
+        .contacts
+        .iter()
+        .enumerate()
+        .filter(|(k, c)| keep(*k, c))
+        .map(|(_, c)| *c);
     ContactMap::new(kept.collect(), map.dim(), map.cone())
 }
 
@@ -164,7 +218,10 @@ impl ContactMemory {
         let cone = self.cone;
         let mut error = LawError::default();
         for (k, c) in trial.map.contacts.iter().enumerate() {
-            let (r, x) = (&trial.r[cone * k..cone * (k + 1)], &trial.x[cone * k..cone * (k + 1)]);
+            let (r, x) = (
+                &trial.r[cone * k..cone * (k + 1)],
+                &trial.x[cone * k..cone * (k + 1)],
+            );
             let rho = match self.stiffness[c.interface][c.slave_index] {
                 0.0 => fallback,
                 known => known,
@@ -172,7 +229,10 @@ impl ContactMemory {
             let mu = model.interfaces[c.interface].mu;
             let size = natural_map(mu, rho, r, x);
             if size > error.largest {
-                error = LawError { largest: size, worst: k };
+                error = LawError {
+                    largest: size,
+                    worst: k,
+                };
             }
         }
         error
@@ -192,7 +252,10 @@ fn natural_map(mu: f64, rho: f64, r: &[f64], x: &[f64]) -> f64 {
     }
     trial[2] -= rho * mu * slip;
     let projected = project::<3>(mu, &trial);
-    (0..3).map(|i| (force[i] - projected[i]).powi(2)).sum::<f64>().sqrt()
+    (0..3)
+        .map(|i| (force[i] - projected[i]).powi(2))
+        .sum::<f64>()
+        .sqrt()
 }
 
 /// Which candidates enter the contact problem: those with a force, and those that the correction
@@ -205,7 +268,9 @@ fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64])
         let interface = &model.interfaces[map.contacts[k].interface];
         free[cone * k + cone - 1] <= 0.25 * interface.search_distance
     };
-    (0..map.contacts.len()).map(|k| near(k) || r[cone * k + cone - 1] > 0.0).collect()
+    (0..map.contacts.len())
+        .map(|k| near(k) || r[cone * k + cone - 1] > 0.0)
+        .collect()
 }
 
 /// The contact problem of one iteration: which forces, together with the residual, make the
@@ -239,12 +304,29 @@ impl LinearisedContact {
         let keep = enters(model, &trial.map, cone, &free, &trial.r);
         let map = filtered(&trial.map, |k, _| keep[k]);
         let select = |all: &[f64]| -> Vec<f64> {
-            all.chunks_exact(cone).zip(&keep).filter(|(_, k)| **k).flat_map(|(c, _)| c.iter().copied()).collect()
+            all.chunks_exact(cone)
+                .zip(&keep)
+                .filter(|(_, k)| **k)
+                .flat_map(|(c, _)| c.iter().copied())
+                .collect()
         };
         let w = memory.operator(&map, bodies);
-        let mu = map.contacts.iter().map(|c| model.interfaces[c.interface].mu).collect();
-        let problem = ContactProblem { w: Delassus::Dense(w), q: select(&free), mu, cone: map.cone() };
-        Ok(Self { r: select(&trial.r), map, problem })
+        let mu = map
+            .contacts
+            .iter()
+            .map(|c| model.interfaces[c.interface].mu)
+            .collect();
+        let problem = ContactProblem {
+            w: Delassus::Dense(w),
+            q: select(&free),
+            mu,
+            cone: map.cone(),
+        };
+        Ok(Self {
+            r: select(&trial.r),
+            map,
+            problem,
+        })
     }
 
     /// Solves it to the relative error `tolerance`, remembers the forces and returns `H^T r` [N].
@@ -261,13 +343,16 @@ impl LinearisedContact {
             ..SolveSettings::default()
         };
         let outcome = memory.solver.solve(&self.problem, &mut self.r, &settings);
-        if std::env::var("TRACE").is_ok() { println!("   solve tol {tolerance:.1e} it {} {:?} err {:.1e} {:.1e} n {}", outcome.iterations, outcome.method, outcome.error, outcome.error_scale_free, self.map.len()); }
         counters.contact_solves += 1;
         counters.contact_iterations += outcome.iterations as u64;
         counters.contacts_max = counters.contacts_max.max(self.map.len() as u64);
-        if outcome.error.max(outcome.error_scale_free) > tolerance.max(model.settings.contact_tolerance) {
+        if outcome.error.max(outcome.error_scale_free)
+            > tolerance.max(model.settings.contact_tolerance)
+        {
             let errors = outcome.diagnostics.iter().enumerate();
-            let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error)).map_or(0, |(k, _)| k);
+            let worst = errors
+                .max_by(|a, b| a.1.error.total_cmp(&b.1.error))
+                .map_or(0, |(k, _)| k);
             return Err(StepFailure::Contact {
                 contacts: self.map.len(),
                 error: outcome.error_scale_free,
@@ -312,13 +397,19 @@ impl ContactMemory {
 
     fn keep_operator(&mut self, map: ContactMap, w: Delassus) {
         if let Delassus::Dense(w) = w {
-            self.kept = Some(KeptOperator { contacts: map.contacts, epochs: self.epochs.clone(), w });
+            self.kept = Some(KeptOperator {
+                contacts: map.contacts,
+                epochs: self.epochs.clone(),
+                w,
+            });
         }
     }
 
     fn remember_stiffness(&mut self, map: &ContactMap, w: &Mat<f64>) {
         for (k, c) in map.contacts.iter().enumerate() {
-            let trace: f64 = (self.cone * k..self.cone * (k + 1)).map(|i| w[(i, i)]).sum();
+            let trace: f64 = (self.cone * k..self.cone * (k + 1))
+                .map(|i| w[(i, i)])
+                .sum();
             if trace > 0.0 {
                 self.stiffness[c.interface][c.slave_index] = 1.0 / trace;
             }
@@ -327,13 +418,21 @@ impl ContactMemory {
 }
 
 fn same_operator(a: &[Contact], b: &[Contact]) -> bool {
-    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.stencil == b.stencil && a.frame == b.frame)
+    a.len() == b.len()
+        && a.iter()
+            .zip(b)
+            .all(|(a, b)| a.stencil == b.stencil && a.frame == b.frame)
 }
 
 /// Names a contact for an error message.
 pub(crate) fn describe(model: &Model, map: &ContactMap, index: usize) -> String {
     map.contacts.get(index).map_or_else(
         || "no contact".to_owned(),
-        |c| format!("node {} of interface \"{}\" (gap {:e} m)", c.slave, model.interfaces[c.interface].name, c.gap),
+        |c| {
+            format!(
+                "node {} of interface \"{}\" (gap {:e} m)",
+                c.slave, model.interfaces[c.interface].name, c.gap
+            )
+        },
     )
 }

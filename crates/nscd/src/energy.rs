@@ -10,10 +10,21 @@ use crate::trial::{StepFrame, Trial};
 
 impl Stepper<'_> {
     /// Turns a converged iterate into the next state and its report.
-    pub(crate) fn accept(&self, frame: &StepFrame<'_>, trial: Trial, check: &Check) -> (State, StepReport) {
+    pub(crate) fn accept(
+        &self,
+        frame: &StepFrame<'_>,
+        trial: Trial,
+        check: &Check,
+    ) -> (State, StepReport) {
         let model = frame.model;
         let support_force: Vec<f64> = (0..trial.u.len())
-            .map(|i| if self.fixed[i] { -(trial.balance[i] + trial.contact_force[i]) } else { 0.0 })
+            .map(|i| {
+                if self.fixed[i] {
+                    -(trial.balance[i] + trial.contact_force[i])
+                } else {
+                    0.0
+                }
+            })
             .collect();
         let cone = self.memory.cone;
         let moved = relative_displacement(frame, &trial.map, &trial.u);
@@ -21,16 +32,26 @@ impl Stepper<'_> {
         let mut energy = bulk_terms(frame, &trial, &support_force);
         contact_terms(frame, &trial, &moved, &contacts, cone, &mut energy);
         let positions = model.positions(&trial.u);
+        // A gap of the size of the round-off of the positions is closed, with or without a force.
+        let touching = 64.0 * f64::EPSILON * positions.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let report = StepReport {
             time: frame.end(),
             dt: frame.dt,
             newton_iterations: check.iteration,
             residual: check.relative_residual(),
             contact_error: check.contact_error,
-            contacts_closed: contacts.iter().filter(|c| c.status != ContactStatus::Open).count(),
+            contacts_closed: contacts
+                .iter()
+                .filter(|c| c.status != ContactStatus::Open || c.gap <= touching)
+                .count(),
             penetration: contacts.iter().map(|c| -c.gap).fold(0.0, f64::max),
             energy,
-            interfaces: interface_resultants(model.interfaces.len(), &contacts, &positions, model.solid.dim()),
+            interfaces: interface_resultants(
+                model.interfaces.len(),
+                &contacts,
+                &positions,
+                model.solid.dim(),
+            ),
             supports: self.support_resultants(&support_force, &positions),
         };
         let state = State {
@@ -56,7 +77,9 @@ impl Stepper<'_> {
         let mut owner = vec![usize::MAX; force.len()];
         for (s, support) in self.model().supports.iter().enumerate() {
             for &node in &support.nodes {
-                (0..dim).filter(|&c| support.components[c]).for_each(|c| owner[dim * node as usize + c] = s);
+                (0..dim)
+                    .filter(|&c| support.components[c])
+                    .for_each(|c| owner[dim * node as usize + c] = s);
             }
         }
         let mut sums = vec![Resultant::default(); self.model().supports.len()];
@@ -76,7 +99,11 @@ impl Stepper<'_> {
 
 impl Resultant {
     fn add(&mut self, f: [f64; 3], at: [f64; 3]) {
-        let m = [at[1] * f[2] - at[2] * f[1], at[2] * f[0] - at[0] * f[2], at[0] * f[1] - at[1] * f[0]];
+        let m = [
+            at[1] * f[2] - at[2] * f[1],
+            at[2] * f[0] - at[0] * f[2],
+            at[0] * f[1] - at[1] * f[0],
+        ];
         for i in 0..3 {
             self.force[i] += f[i];
             self.moment[i] += m[i];
@@ -133,7 +160,10 @@ fn contact_terms(
     for (k, c) in trial.map.contacts.iter().enumerate() {
         let r = &trial.r[cone * k..cone * (k + 1)];
         let dx = &moved[cone * k..cone * (k + 1)];
-        let (tangential, normal) = (dot(&r[..cone - 1], &dx[..cone - 1]), r[cone - 1] * dx[cone - 1]);
+        let (tangential, normal) = (
+            dot(&r[..cone - 1], &dx[..cone - 1]),
+            r[cone - 1] * dx[cone - 1],
+        );
         let global = global_force(&contacts[k]);
         terms.load_work += dot(&global, &c.obstacle_motion);
         terms.friction -= tangential;
@@ -152,7 +182,9 @@ fn contact_terms(
 /// Gap of the same slave node at the end of the last step, if it was a candidate then.
 fn gap_before(now: &State, contact: &ContactState) -> Option<f64> {
     let key = (contact.interface, contact.slave_index);
-    let found = now.contacts.binary_search_by_key(&key, |c| (c.interface, c.slave_index));
+    let found = now
+        .contacts
+        .binary_search_by_key(&key, |c| (c.interface, c.slave_index));
     found.ok().map(|i| now.contacts[i].gap)
 }
 
@@ -160,7 +192,12 @@ fn global_force(contact: &ContactState) -> [f64; 3] {
     std::array::from_fn(|i| (0..3).map(|k| contact.force[k] * contact.frame[k][i]).sum())
 }
 
-fn contact_states(frame: &StepFrame<'_>, trial: &Trial, moved: &[f64], cone: usize) -> Vec<ContactState> {
+fn contact_states(
+    frame: &StepFrame<'_>,
+    trial: &Trial,
+    moved: &[f64],
+    cone: usize,
+) -> Vec<ContactState> {
     let force_scale = trial.r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
     let contacts = trial.map.contacts.iter().enumerate();
     contacts
@@ -193,7 +230,12 @@ fn contact_states(frame: &StepFrame<'_>, trial: &Trial, moved: &[f64], cone: usi
         .collect()
 }
 
-fn interface_resultants(count: usize, contacts: &[ContactState], positions: &[f64], dim: usize) -> Vec<Resultant> {
+fn interface_resultants(
+    count: usize,
+    contacts: &[ContactState],
+    positions: &[f64],
+    dim: usize,
+) -> Vec<Resultant> {
     let mut sums = vec![Resultant::default(); count];
     for c in contacts {
         sums[c.interface].add(global_force(c), point(positions, c.node as usize, dim));

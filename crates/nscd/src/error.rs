@@ -5,7 +5,9 @@
 #[non_exhaustive]
 pub enum NscdError {
     /// The sparse matrix of a body could not be analysed.
-    #[error("the matrix of a body with {unknowns} unknowns could not be analysed: {reason}; try a coarser mesh")]
+    #[error(
+        "the matrix of a body with {unknowns} unknowns could not be analysed: {reason}; try a coarser mesh"
+    )]
     Symbolic {
         /// Unknowns of the body.
         unknowns: usize,
@@ -23,7 +25,9 @@ pub enum NscdError {
         allowed: &'static str,
     },
     /// A quasi-static body that nothing holds.
-    #[error("velocity-level contact needs inertia; use position-level contact for a quasi-static run")]
+    #[error(
+        "velocity-level contact needs inertia; use position-level contact for a quasi-static run"
+    )]
     VelocityWithoutInertia,
     /// Element or mesh trouble outside a step.
     #[error(transparent)]
@@ -32,7 +36,9 @@ pub enum NscdError {
     #[error(transparent)]
     Interface(#[from] contact_bipotential::GeometryError),
     /// The smallest step failed too.
-    #[error("stopped at t = {time:e} s: no step down to {smallest:e} s converges. Last reason: {failure}")]
+    #[error(
+        "stopped at t = {time:e} s: no step down to {smallest:e} s converges. Last reason: {failure}"
+    )]
     Stopped {
         /// Time reached [s].
         time: f64,
@@ -78,7 +84,9 @@ pub enum StepFailure {
         contact: String,
     },
     /// The contact problem of an iteration was not solved.
-    #[error("the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; try smaller steps")]
+    #[error(
+        "the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; try smaller steps"
+    )]
     Contact {
         /// Contacts in the problem.
         contacts: usize,
@@ -90,7 +98,9 @@ pub enum StepFailure {
         contact: String,
     },
     /// The tangent stayed indefinite whatever was added to it.
-    #[error("the tangent of body {body} is not positive definite near node {node}; the body may buckle or lose ellipticity there: try smaller steps")]
+    #[error(
+        "the tangent of body {body} is not positive definite near node {node}; the body may buckle or lose ellipticity there: try smaller steps"
+    )]
     Indefinite {
         /// Index of the body.
         body: usize,
@@ -98,7 +108,9 @@ pub enum StepFailure {
         node: usize,
     },
     /// The factorization does not solve its own system.
-    #[error("a linear solve left the relative residual {residual:e} in body {body}; the matrix is close to singular: is the body held?")]
+    #[error(
+        "a linear solve left the relative residual {residual:e} in body {body}; the matrix is close to singular: is the body held?"
+    )]
     Linear {
         /// Index of the body.
         body: usize,

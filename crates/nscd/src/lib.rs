@@ -11,6 +11,7 @@ mod body;
 mod contact;
 mod energy;
 mod error;
+mod extrapolation;
 mod linear;
 mod march;
 mod model;
@@ -26,7 +27,9 @@ mod trial;
 pub use error::{NscdError, StepFailure};
 pub use march::{Observer, Span, Totals, march};
 pub use model::{Load, Model, Rayleigh};
-pub use report::{Clock, Counters, EnergyTerms, NoClock, Phase, Phases, Rejection, Resultant, StepReport};
+pub use report::{
+    Clock, Counters, EnergyTerms, NoClock, Phase, Phases, Rejection, Resultant, StepReport,
+};
 pub use scheme::{ContactLevel, Inertia, Scheme};
 pub use settings::Settings;
 pub use state::{ContactState, ContactStatus, State};

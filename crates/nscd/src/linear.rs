@@ -6,6 +6,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_inverse::invert_lower_triangular;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::supernodal::{
     SupernodalLltRef, SymbolicSupernodalCholesky, factorize_supernodal_numeric_llt,
     factorize_supernodal_numeric_llt_scratch,
@@ -14,7 +15,6 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, Conj, Mat, MatMut, Par, Side};
 
@@ -59,7 +59,10 @@ pub(crate) struct Factor {
 
 impl fmt::Debug for Factor {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Factor").field("n", &self.symbolic.nrows()).field("flops", &self.flops).finish()
+        f.debug_struct("Factor")
+            .field("n", &self.symbolic.nrows())
+            .field("flops", &self.flops)
+            .finish()
     }
 }
 
@@ -81,17 +84,34 @@ impl Factor {
         };
         let symbolic =
             factorize_symbolic_cholesky(upper, Side::Upper, SymmetricOrdering::Identity, params)
-                .map_err(|e| NscdError::Symbolic { unknowns: n, reason: format!("{e:?}") })?;
+                .map_err(|e| NscdError::Symbolic {
+                    unknowns: n,
+                    reason: format!("{e:?}"),
+                })?;
         let SymbolicCholeskyRaw::Supernodal(factor) = symbolic.raw() else {
-            return Err(NscdError::Symbolic { unknowns: n, reason: "no supernodal structure".into() });
+            return Err(NscdError::Symbolic {
+                unknowns: n,
+                reason: "no supernodal structure".into(),
+            });
         };
-        let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(factor, Par::Seq, Default::default())
-            .or(factor.solve_in_place_scratch::<f64>(1, Par::Seq));
+        let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(
+            factor,
+            Par::Seq,
+            Default::default(),
+        )
+        .or(factor.solve_in_place_scratch::<f64>(1, Par::Seq));
         let (values, flops) = (vec![0.0; factor.len_val()], factorization_flops(factor));
-        Ok(Self { memory: MemBuffer::new(scratch), values, flops, symbolic })
+        Ok(Self {
+            memory: MemBuffer::new(scratch),
+            values,
+            flops,
+            symbolic,
+        })
     }
 
-    fn supernodal(symbolic: &SymbolicCholesky<usize>) -> Option<&SymbolicSupernodalCholesky<usize>> {
+    fn supernodal(
+        symbolic: &SymbolicCholesky<usize>,
+    ) -> Option<&SymbolicSupernodalCholesky<usize>> {
         match symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(factor) => Some(factor),
             SymbolicCholeskyRaw::Simplicial(_) => None,
@@ -107,11 +127,18 @@ impl Factor {
     ///
     /// # Errors
     /// [`Indefinite`] with the first equation whose pivot is not positive.
-    pub(crate) fn factorize(&mut self, pattern: LowerPattern<'_>, values: &[f64]) -> Result<(), Indefinite> {
+    pub(crate) fn factorize(
+        &mut self,
+        pattern: LowerPattern<'_>,
+        values: &[f64],
+    ) -> Result<(), Indefinite> {
         let n = pattern.n();
-        let lower = SymbolicSparseColMatRef::new_checked(n, n, pattern.pointers, None, pattern.rows);
+        let lower =
+            SymbolicSparseColMatRef::new_checked(n, n, pattern.pointers, None, pattern.rows);
         let matrix = SparseColMatRef::new(lower, values);
-        let Some(symbolic) = Self::supernodal(&self.symbolic) else { return Ok(()) };
+        let Some(symbolic) = Self::supernodal(&self.symbolic) else {
+            return Ok(());
+        };
         factorize_supernodal_numeric_llt(
             &mut self.values,
             matrix,
@@ -123,7 +150,9 @@ impl Factor {
         )
         .map(|_| ())
         .map_err(|e| match e {
-            faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index } => Indefinite { equation: index },
+            faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index } => {
+                Indefinite { equation: index }
+            }
         })
     }
 
@@ -133,7 +162,12 @@ impl Factor {
             let n = x.len();
             let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
             let stack = MemStack::new(&mut self.memory);
-            SupernodalLltRef::new(symbolic, &self.values).l_solve_with_conj(Conj::No, rhs, Par::Seq, stack);
+            SupernodalLltRef::new(symbolic, &self.values).l_solve_with_conj(
+                Conj::No,
+                rhs,
+                Par::Seq,
+                stack,
+            );
         }
     }
 
@@ -143,7 +177,12 @@ impl Factor {
             let n = x.len();
             let rhs = MatMut::from_column_major_slice_mut(x, n, 1);
             let stack = MemStack::new(&mut self.memory);
-            SupernodalLltRef::new(symbolic, &self.values).l_transpose_solve_with_conj(Conj::No, rhs, Par::Seq, stack);
+            SupernodalLltRef::new(symbolic, &self.values).l_transpose_solve_with_conj(
+                Conj::No,
+                rhs,
+                Par::Seq,
+                stack,
+            );
         }
     }
 
@@ -153,7 +192,9 @@ impl Factor {
     fn trailing_block(&self, first: usize) -> Mat<f64> {
         let n = self.symbolic.nrows();
         let mut block = Mat::zeros(n - first, n - first);
-        let Some(symbolic) = Self::supernodal(&self.symbolic) else { return block };
+        let Some(symbolic) = Self::supernodal(&self.symbolic) else {
+            return block;
+        };
         let factor = SupernodalLltRef::new(symbolic, &self.values);
         for s in 0..symbolic.n_supernodes() {
             let (begin, end) = (symbolic.supernode_begin()[s], symbolic.supernode_end()[s]);
@@ -252,7 +293,9 @@ fn factorization_flops(factor: &SymbolicSupernodalCholesky<usize>) -> f64 {
         .map(|s| {
             let columns = factor.supernode_end()[s] - factor.supernode_begin()[s];
             let below = factor.supernode(s).pattern().len();
-            (0..columns).map(|k| ((columns - k + below) as f64).powi(2)).sum::<f64>()
+            (0..columns)
+                .map(|k| ((columns - k + below) as f64).powi(2))
+                .sum::<f64>()
         })
         .sum()
 }

@@ -83,11 +83,18 @@ pub fn march(
                 totals.add(&report);
                 observer
                     .accepted(stepper, state, &report, totals)
-                    .map_err(|source| NscdError::Observer { time: state.time, source })?;
+                    .map_err(|source| NscdError::Observer {
+                        time: state.time,
+                        source,
+                    })?;
             }
             Err(reason) => {
                 stepper.counters.rejected_steps += 1;
-                let rejection = Rejection { time: state.time, dt, reason };
+                let rejection = Rejection {
+                    time: state.time,
+                    dt,
+                    reason,
+                };
                 observer.rejected(&rejection);
                 control.rejected(state.time, dt, &rejection.reason)?;
                 totals.rejections.push(rejection);
@@ -112,8 +119,11 @@ struct Control {
 
 impl Control {
     fn new(model: &Model, span: Span) -> Self {
-        let mut targets: Vec<f64> =
-            model.breakpoints().into_iter().filter(|t| *t > 0.0 && *t < span.end * (1.0 - 1e-12)).collect();
+        let mut targets: Vec<f64> = model
+            .breakpoints()
+            .into_iter()
+            .filter(|t| *t > 0.0 && *t < span.end * (1.0 - 1e-12))
+            .collect();
         targets.push(span.end);
         Self {
             span,
@@ -136,9 +146,11 @@ impl Control {
     }
 
     fn accepted(&mut self, state: &mut State) {
-        // The grid is exact: `t + dt` that lands on a target up to round-off is that target.
-        if let Some(&target) = self.targets.iter().find(|&&target| (target - state.time).abs() < 1e-9 * self.span.dt) {
-            state.time = target;
+        // Sums of steps reach the nominal grid and the targets up to round-off: put them there.
+        let grid = (state.time / self.span.dt).round() * self.span.dt;
+        let places = self.targets.iter().copied().chain([grid]);
+        if let Some(exact) = places.into_iter().find(|t| (t - state.time).abs() < 1e-9 * self.span.dt) {
+            state.time = exact;
         }
         self.successes += 1;
         if self.level > 0 && self.successes >= self.growth_after {
@@ -153,7 +165,11 @@ impl Control {
             self.level += 1;
         }
         if dt * 0.5 < self.smallest {
-            return Err(NscdError::Stopped { time, smallest: dt, failure: reason.clone() });
+            return Err(NscdError::Stopped {
+                time,
+                smallest: dt,
+                failure: reason.clone(),
+            });
         }
         Ok(())
     }

@@ -81,7 +81,10 @@ impl Model {
     pub fn positions(&self, u: &[f64]) -> Vec<f64> {
         let dim = self.solid.dim();
         let points = self.solid.mesh().points.iter();
-        points.zip(u.chunks_exact(dim)).flat_map(|(x, u)| (0..dim).map(move |c| x[c] + u[c])).collect()
+        points
+            .zip(u.chunks_exact(dim))
+            .flat_map(|(x, u)| (0..dim).map(move |c| x[c] + u[c]))
+            .collect()
     }
 
     /// Kinetic energy [J]; an equilibrium path has none.
@@ -108,7 +111,9 @@ impl Model {
         let dim = self.solid.dim();
         for support in &self.supports {
             for &node in &support.nodes {
-                let at = support.motion.displacement(self.solid.mesh().points[node as usize], t);
+                let at = support
+                    .motion
+                    .displacement(self.solid.mesh().points[node as usize], t);
                 for c in (0..dim).filter(|&c| support.components[c]) {
                     u[dim * node as usize + c] = at[c];
                 }
@@ -120,9 +125,15 @@ impl Model {
     pub(crate) fn candidates(&self) -> Vec<bool> {
         let mut candidate = vec![false; self.solid.node_count()];
         for interface in &self.interfaces {
-            interface.slave.iter().for_each(|&n| candidate[n as usize] = true);
+            interface
+                .slave
+                .iter()
+                .for_each(|&n| candidate[n as usize] = true);
             if let Master::Surface(surface) = &interface.master {
-                surface.nodes.iter().for_each(|&n| candidate[n as usize] = true);
+                surface
+                    .nodes
+                    .iter()
+                    .for_each(|&n| candidate[n as usize] = true);
             }
         }
         candidate

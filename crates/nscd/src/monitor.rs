@@ -32,7 +32,11 @@ pub(crate) struct Check {
 impl Check {
     /// Residual relative to the largest force in play.
     pub(crate) fn relative_residual(&self) -> f64 {
-        if self.scale > 0.0 { self.residual / self.scale } else { 0.0 }
+        if self.scale > 0.0 {
+            self.residual / self.scale
+        } else {
+            0.0
+        }
     }
 
     /// Accuracy that the next contact solve needs [-]: a hundredth of what the iterate has, since
@@ -61,7 +65,10 @@ impl Check {
 #[derive(Debug)]
 pub(crate) struct Monitor {
     iteration: usize,
-    norms: Vec<f64>,
+    /// Residual of each body in the last two iterations [N].
+    norms: Vec<[f64; 2]>,
+    /// Factorizations of each body before the step.
+    epochs: Vec<u64>,
     allowed: f64,
     /// Estimated seconds of one iteration.
     iteration_cost: f64,
@@ -73,10 +80,17 @@ impl Monitor {
     pub(crate) fn new(bodies: &[BodySystem], model: &Model, contact_rows: usize) -> Self {
         let elements: usize = model.solid.blocks().iter().map(|b| b.element_count()).sum();
         let solves: f64 = bodies.iter().map(BodySystem::solve_cost).sum();
-        let extent = model.solid.mesh().points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let extent = model
+            .solid
+            .mesh()
+            .points
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |m, x| m.max(x.abs()));
         Self {
             iteration: 0,
-            norms: vec![0.0; bodies.len()],
+            norms: vec![[0.0; 2]; bodies.len()],
+            epochs: bodies.iter().map(BodySystem::epoch).collect(),
             allowed: 0.0,
             iteration_cost: elements as f64 * 1e-6 + solves + contact_cost(contact_rows),
             extent,
@@ -92,21 +106,37 @@ impl Monitor {
         trial: &Trial,
     ) -> Result<Check, StepFailure> {
         let settings = &frame.model.settings;
-        let stiffness = stepper.bodies.iter().map(BodySystem::largest_diagonal).fold(0.0, f64::max);
-        let travel = largest(&trial.u) + frame.dt * largest(&trial.v);
-        let scale = [&trial.internal_force, &frame.external_force, &trial.contact_force, &trial.damping_force]
-            .into_iter()
-            .map(|f| largest(f))
+        let stiffness = stepper
+            .bodies
+            .iter()
+            .map(BodySystem::largest_diagonal)
             .fold(0.0, f64::max);
+        let travel = largest(&trial.u) + frame.dt * largest(&trial.v);
+        let scale = [
+            &trial.internal_force,
+            &frame.external_force,
+            &trial.contact_force,
+            &trial.damping_force,
+        ]
+        .into_iter()
+        .map(|f| largest(f))
+        .fold(0.0, f64::max);
         // Strains carry the round-off of numbers of size one, displacements that of their own size.
-        let elastic = stepper.bodies.iter().map(BodySystem::largest_stiffness).fold(0.0, f64::max);
+        let elastic = stepper
+            .bodies
+            .iter()
+            .map(BodySystem::largest_stiffness)
+            .fold(0.0, f64::max);
         let floor = ROUND_OFF * (stiffness * travel + elastic * self.element_size);
         self.allowed = (settings.newton_tolerance * scale).max(floor);
         let (residual, node) = self.residual(stepper, trial)?;
         let law = stepper.memory.law_error(frame.model, trial, stiffness);
         let force = largest(&trial.r);
         let floor = ROUND_OFF * stiffness * (self.extent + travel);
-        let contact_error = law.largest / force.max(floor / settings.contact_tolerance).max(f64::MIN_POSITIVE);
+        let contact_error = law.largest
+            / force
+                .max(floor / settings.contact_tolerance)
+                .max(f64::MIN_POSITIVE);
         let check = Check {
             iteration: self.iteration,
             converged: trial.pending.is_none()
@@ -121,13 +151,16 @@ impl Monitor {
             contact_tolerance: settings.contact_tolerance,
             pending: trial.pending.is_some(),
         };
-        if std::env::var("TRACE").is_ok() { println!("  {} it {} norms {:.1e} {:.1e} allowed {:.1e} rates {:?} law {:.1e}", frame.now.time, self.iteration, self.norms[0], self.norms[self.norms.len()-1], self.allowed, stepper.bodies.iter().map(|b| b.contraction()).collect::<Vec<_>>(), check.contact_error); }
         self.iteration += 1;
         Ok(check)
     }
 
     /// Largest residual and its node; the contraction of every body goes to the body.
-    fn residual(&mut self, stepper: &mut Stepper<'_>, trial: &Trial) -> Result<(f64, usize), StepFailure> {
+    fn residual(
+        &mut self,
+        stepper: &mut Stepper<'_>,
+        trial: &Trial,
+    ) -> Result<(f64, usize), StepFailure> {
         let dim = stepper.model().solid.dim();
         let mut worst = (0.0, 0);
         for (body, last) in stepper.bodies.iter_mut().zip(&mut self.norms) {
@@ -135,7 +168,9 @@ impl Monitor {
             for &d in &body.dofs {
                 let size = (trial.balance[d as usize] + trial.contact_force[d as usize]).abs();
                 if !size.is_finite() {
-                    return Err(StepFailure::NotFinite { node: d as usize / dim });
+                    return Err(StepFailure::NotFinite {
+                        node: d as usize / dim,
+                    });
                 }
                 if size > norm {
                     norm = size;
@@ -144,10 +179,15 @@ impl Monitor {
                     }
                 }
             }
-            if self.iteration > 0 && *last > self.allowed {
-                body.learn_contraction(norm / *last);
+            // Contact passes a disturbance back and forth between two bodies: two iterations tell
+            // more than one.
+            let [before, previous] = *last;
+            match self.iteration {
+                0 => {}
+                1 => body.learn_contraction(norm / previous),
+                _ => body.learn_contraction((norm / before).sqrt()),
             }
-            *last = norm;
+            *last = [previous, norm];
         }
         Ok(worst)
     }
@@ -158,11 +198,18 @@ impl Monitor {
         if !body.is_factored_for(frame.weights) {
             return true;
         }
-        let (Some(rate), true) = (body.contraction(), self.norms[index] > self.allowed) else { return false };
+        let (Some(rate), true) = (body.contraction(), self.norms[index][1] > self.allowed) else {
+            return false;
+        };
         if rate > 0.7 {
             return true;
         }
-        let decades = (self.allowed.max(f64::MIN_POSITIVE) / self.norms[index]).ln();
+        // The first correction goes most of the way with any tangent, and a new one is better made
+        // there; what a new tangent did not mend, a second one in the same step will not mend either.
+        if self.iteration == 1 || self.epochs[index] != body.epoch() {
+            return false;
+        }
+        let decades = (self.allowed.max(f64::MIN_POSITIVE) / self.norms[index][1]).ln();
         let remaining = decades / rate.max(1e-12).ln();
         let fresh = 3.0 + frame.model.settings.lag * body.factor_cost() / self.iteration_cost;
         remaining > fresh
@@ -172,18 +219,24 @@ impl Monitor {
 /// Estimated seconds of one contact solve with so many rows: a few products with W.
 fn contact_cost(rows: usize) -> f64 {
     let n = rows as f64;
-    n * n * 2e-8
+    n * n * 3e-8
 }
 
 /// Longest edge of a bounding box of an element [m].
 fn largest_element(model: &Model) -> f64 {
     let points = &model.solid.mesh().points;
-    let cells = model.solid.blocks().iter().flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
+    let cells = model
+        .solid
+        .blocks()
+        .iter()
+        .flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
     let extent = |cell: &[u32], c: usize| {
         let along = cell.iter().map(|&n| points[n as usize][c]);
         along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
     };
-    cells.flat_map(|cell| (0..3).map(move |c| extent(cell, c))).fold(0.0, f64::max)
+    cells
+        .flat_map(|cell| (0..3).map(move |c| extent(cell, c)))
+        .fold(0.0, f64::max)
 }
 
 fn largest(x: &[f64]) -> f64 {

@@ -46,13 +46,20 @@ fn nested_dissection(graph: Graph<'_>, nodes: &[u32]) -> Vec<u32> {
         let start = rows.len();
         rows.push(i as i32);
         let inside = graph.neighbours(node).iter().map(|&m| local[m as usize]);
-        rows.extend(inside.filter(|&j| j != ABSENT && j as usize != i).map(|j| j as i32));
+        rows.extend(
+            inside
+                .filter(|&j| j != ABSENT && j as usize != i)
+                .map(|j| j as i32),
+        );
         rows[start..].sort_unstable();
         pointers.push(rows.len() as i32);
     }
     CscPattern::new(nodes.len(), &pointers, &rows)
         .and_then(|pattern| feral_scotch::scotch_order(&pattern).ok())
-        .map_or_else(|| nodes.to_vec(), |perm| perm.iter().map(|&k| nodes[k as usize]).collect())
+        .map_or_else(
+            || nodes.to_vec(),
+            |perm| perm.iter().map(|&k| nodes[k as usize]).collect(),
+        )
 }
 
 fn local_numbers(graph: Graph<'_>, nodes: &[u32]) -> Vec<u32> {
@@ -150,7 +157,14 @@ mod tests {
         let mut rows: Vec<std::collections::BTreeSet<usize>> = order
             .iter()
             .enumerate()
-            .map(|(k, &v)| graph.neighbours(v).iter().map(|&m| position[m as usize] as usize).filter(|&i| i > k).collect())
+            .map(|(k, &v)| {
+                graph
+                    .neighbours(v)
+                    .iter()
+                    .map(|&m| position[m as usize] as usize)
+                    .filter(|&i| i > k)
+                    .collect()
+            })
             .collect();
         let mut total = 0;
         for k in 0..n {
@@ -166,7 +180,10 @@ mod tests {
     #[test]
     fn order_is_a_permutation_with_candidates_last_and_little_fill() {
         let (offsets, neighbours) = grid(20);
-        let graph = Graph { offsets: &offsets, neighbours: &neighbours };
+        let graph = Graph {
+            offsets: &offsets,
+            neighbours: &neighbours,
+        };
         let last: Vec<u32> = (0..20).collect();
         let interior: Vec<u32> = (20..400).collect();
         let order = elimination_order(graph, &interior, &last);
@@ -181,12 +198,20 @@ mod tests {
     #[test]
     fn postorder_keeps_the_fill() {
         let (offsets, neighbours) = grid(12);
-        let graph = Graph { offsets: &offsets, neighbours: &neighbours };
+        let graph = Graph {
+            offsets: &offsets,
+            neighbours: &neighbours,
+        };
         let interior: Vec<u32> = (0..144).collect();
         let before = nested_dissection(graph, &interior);
         let after = elimination_order(graph, &interior, &[]);
         assert_eq!(fill(graph, &before), fill(graph, &after));
         let parents = elimination_tree(graph, &after);
-        assert!(parents.iter().enumerate().all(|(i, p)| p.is_none_or(|p| p > i)));
+        assert!(
+            parents
+                .iter()
+                .enumerate()
+                .all(|(i, p)| p.is_none_or(|p| p > i))
+        );
     }
 }

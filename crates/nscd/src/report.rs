@@ -118,7 +118,8 @@ impl EnergyTerms {
     /// What the balance leaves open [J]: zero but for the tolerance of Newton's iteration.
     pub fn imbalance(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.adhesive;
-        let lost = self.friction + self.bond + self.damping + self.impact + self.integration_error();
+        let lost =
+            self.friction + self.bond + self.damping + self.impact + self.integration_error();
         stored + lost - self.load_work
     }
 

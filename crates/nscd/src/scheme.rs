@@ -52,7 +52,11 @@ impl Scheme {
         let allowed = "between 0.5 (trapezoidal rule) and 1 (backward Euler)";
         for (name, value) in [("theta", self.theta), ("xi", self.xi)] {
             if !(0.5..=1.0).contains(&value) {
-                return Err(NscdError::Setting { name, value, allowed });
+                return Err(NscdError::Setting {
+                    name,
+                    value,
+                    allowed,
+                });
             }
         }
         if self.contact == ContactLevel::Velocity && self.inertia == Inertia::QuasiStatic {
@@ -84,7 +88,11 @@ impl Scheme {
             Inertia::Dynamic => rate / dt,
             Inertia::QuasiStatic => 0.0,
         };
-        Weights { stiffness, damping: stiffness * rate, mass }
+        Weights {
+            stiffness,
+            damping: stiffness * rate,
+            mass,
+        }
     }
 
     /// End velocity of a free unknown [Feng2007, eq. 47].
@@ -102,7 +110,12 @@ mod tests {
 
     #[test]
     fn end_velocity_inverts_the_displacement_rule() {
-        let scheme = Scheme { theta: 0.7, xi: 0.6, contact: ContactLevel::Position, inertia: Inertia::Dynamic };
+        let scheme = Scheme {
+            theta: 0.7,
+            xi: 0.6,
+            contact: ContactLevel::Position,
+            inertia: Inertia::Dynamic,
+        };
         let (v0, v1, dt) = (0.3, -1.2, 0.01);
         let du = dt * ((1.0 - 0.7) * v0 + 0.7 * v1);
         assert!((scheme.end_velocity(v0, du, dt) - v1).abs() < 1e-12);
@@ -112,9 +125,22 @@ mod tests {
 
     #[test]
     fn unstable_parameters_are_refused() {
-        let scheme = Scheme { theta: 0.4, xi: 0.5, contact: ContactLevel::Position, inertia: Inertia::Dynamic };
+        let scheme = Scheme {
+            theta: 0.4,
+            xi: 0.5,
+            contact: ContactLevel::Position,
+            inertia: Inertia::Dynamic,
+        };
         assert!(scheme.validated().is_err());
-        let still = Scheme { theta: 1.0, xi: 1.0, contact: ContactLevel::Velocity, inertia: Inertia::QuasiStatic };
-        assert!(matches!(still.validated(), Err(NscdError::VelocityWithoutInertia)));
+        let still = Scheme {
+            theta: 1.0,
+            xi: 1.0,
+            contact: ContactLevel::Velocity,
+            inertia: Inertia::QuasiStatic,
+        };
+        assert!(matches!(
+            still.validated(),
+            Err(NscdError::VelocityWithoutInertia)
+        ));
     }
 }

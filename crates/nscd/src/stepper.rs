@@ -4,8 +4,9 @@ use contact_bipotential::{ContactMap, Detector};
 use fe_core::{ElementWorkspace, FeError, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
-use crate::contact::{ContactMemory, cone_of, filtered, local_variable, LinearisedContact};
+use crate::contact::{ContactMemory, LinearisedContact, cone_of, filtered, local_variable};
 use crate::error::{NscdError, StepFailure};
+use crate::extrapolation::Extrapolation;
 use crate::model::Model;
 use crate::monitor::Monitor;
 use crate::ordering::Graph;
@@ -24,6 +25,7 @@ pub struct Stepper<'m> {
     pub(crate) memory: ContactMemory,
     work: ElementWorkspace,
     initial_stiffness: Option<ElementWorkspace>,
+    extrapolation: Extrapolation,
     breakpoints: Vec<f64>,
     /// Work done so far.
     pub counters: Counters,
@@ -42,7 +44,10 @@ impl<'m> Stepper<'m> {
         let fixed = model.prescribed();
         let candidate = model.candidates();
         let (offsets, neighbours) = node_adjacency(&model.solid);
-        let graph = Graph { offsets: &offsets, neighbours: &neighbours };
+        let graph = Graph {
+            offsets: &offsets,
+            neighbours: &neighbours,
+        };
         let bodies = (0..model.solid.bodies().len())
             .map(|b| BodySystem::new(&model.solid, graph, b, &fixed, &candidate))
             .collect::<Result<_, _>>()?;
@@ -57,10 +62,16 @@ impl<'m> Stepper<'m> {
         Ok(Self {
             bodies,
             fixed,
-            detector: Detector::new(model.interfaces.clone(), &model.positions(&vec![0.0; model.dof_count()]), model.solid.dim(), cone_of(model))?,
+            detector: Detector::new(
+                model.interfaces.clone(),
+                &model.positions(&vec![0.0; model.dof_count()]),
+                model.solid.dim(),
+                cone_of(model),
+            )?,
             memory: ContactMemory::new(model),
             work,
             initial_stiffness,
+            extrapolation: Extrapolation::default(),
             breakpoints: model.breakpoints(),
             counters: Counters::default(),
             phases: [0.0; 6],
@@ -82,9 +93,14 @@ impl<'m> Stepper<'m> {
         let n = self.model.dof_count();
         let mut u = vec![0.0; n];
         self.model.prescribe(0.0, &mut u);
-        (0..n).filter(|&i| self.fixed[i]).for_each(|i| velocity[i] = 0.0);
+        (0..n)
+            .filter(|&i| self.fixed[i])
+            .for_each(|i| velocity[i] = 0.0);
         let mut internal_force = vec![0.0; n];
-        let strain_energy = self.model.solid.internal_force(&u, &mut self.work, &mut internal_force)?;
+        let strain_energy =
+            self.model
+                .solid
+                .internal_force(&u, &mut self.work, &mut internal_force)?;
         let mut external_force = vec![0.0; n];
         self.model.external_force(0.0, &mut external_force);
         Ok(State {
@@ -109,6 +125,7 @@ impl<'m> Stepper<'m> {
     /// Why the step was rejected.
     pub fn step(&mut self, now: &State, dt: f64) -> Result<(State, StepReport), StepFailure> {
         self.memory.restore(now);
+        self.extrapolation.forget();
         let frame = StepFrame::new(self.model, now, dt, self.initial_stiffness.as_ref());
         let mut trial = self.predict(&frame)?;
         let mut monitor = Monitor::new(&self.bodies, self.model, self.memory.rows());
@@ -128,7 +145,10 @@ impl<'m> Stepper<'m> {
     }
 
     fn predict(&mut self, frame: &StepFrame<'_>) -> Result<Trial, StepFailure> {
-        let at_breakpoint = self.breakpoints.iter().any(|t| (t - frame.now.time).abs() <= 1e-9 * frame.dt);
+        let at_breakpoint = self
+            .breakpoints
+            .iter()
+            .any(|t| (t - frame.now.time).abs() <= 1e-9 * frame.dt);
         let (u, pending) = frame.predict(&self.fixed, at_breakpoint);
         let n = u.len();
         let zeros = || vec![0.0; n];
@@ -149,18 +169,30 @@ impl<'m> Stepper<'m> {
             trial.map = self.predicted_contacts(frame);
         }
         match self.evaluate(frame, &mut trial) {
-            Err(StepFailure::Element(_)) if trial.pending.is_none() => self.start_from_rest(frame, trial),
+            Err(StepFailure::Element(_)) if trial.pending.is_none() => {
+                self.start_from_rest(frame, trial)
+            }
             other => other.map(|()| trial),
         }
     }
 
     /// The extrapolation turned an element inside out: start from the old positions instead and
     /// let the prescribed motion come in through the tangent.
-    fn start_from_rest(&mut self, frame: &StepFrame<'_>, mut trial: Trial) -> Result<Trial, StepFailure> {
+    fn start_from_rest(
+        &mut self,
+        frame: &StepFrame<'_>,
+        mut trial: Trial,
+    ) -> Result<Trial, StepFailure> {
         let mut target = frame.now.u.clone();
         self.model.prescribe(frame.end(), &mut target);
         trial.u.copy_from_slice(&frame.now.u);
-        trial.pending = Some(target.iter().zip(&frame.now.u).map(|(a, b)| a - b).collect());
+        trial.pending = Some(
+            target
+                .iter()
+                .zip(&frame.now.u)
+                .map(|(a, b)| a - b)
+                .collect(),
+        );
         self.evaluate(frame, &mut trial)?;
         Ok(trial)
     }
@@ -168,18 +200,32 @@ impl<'m> Stepper<'m> {
     /// Contacts whose gap closes in free flight [physics of Moreau-Jean]; they keep their frames
     /// through the step.
     fn predicted_contacts(&mut self, frame: &StepFrame<'_>) -> ContactMap {
-        let mut ahead: Vec<f64> =
-            frame.now.u.iter().zip(&frame.now.v).map(|(u, v)| u + frame.dt * v).collect();
+        let mut ahead: Vec<f64> = frame
+            .now
+            .u
+            .iter()
+            .zip(&frame.now.v)
+            .map(|(u, v)| u + frame.dt * v)
+            .collect();
         self.model.prescribe(frame.end(), &mut ahead);
         let map = self.detect(frame, &ahead);
-        let size = self.model.solid.mesh().points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let size = self
+            .model
+            .solid
+            .mesh()
+            .points
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |m, x| m.max(x.abs()));
         filtered(&map, |_, c| c.gap <= 1e-12 * size)
     }
 
     fn detect(&mut self, frame: &StepFrame<'_>, u: &[f64]) -> ContactMap {
         let start = self.clock.seconds();
         let positions = self.model.positions(u);
-        let map = self.detector.detect(&positions, frame.now.time, frame.end());
+        let map = self
+            .detector
+            .detect(&positions, frame.now.time, frame.end());
         self.counters.detections += 1;
         self.book(Phase::Detection, start);
         map
@@ -189,41 +235,60 @@ impl<'m> Stepper<'m> {
     fn evaluate(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) -> Result<(), StepFailure> {
         let start = self.clock.seconds();
         let solid = &self.model.solid;
-        trial.strain_energy =
-            solid.internal_force(&trial.u, &mut self.work, &mut trial.internal_force).map_err(inverted)?;
+        trial.strain_energy = solid
+            .internal_force(&trial.u, &mut self.work, &mut trial.internal_force)
+            .map_err(inverted)?;
         self.counters.force_evaluations += 1;
         frame.end_velocity(&trial.u, &self.fixed, &mut trial.v);
         if !self.model.damping.is_none() {
-            trial.damping_force = damping_force(self.model, self.initial_stiffness.as_ref(), &trial.v);
+            trial.damping_force =
+                damping_force(self.model, self.initial_stiffness.as_ref(), &trial.v);
         }
         frame.balance(trial);
         self.book(Phase::Elements, start);
-        if self.model.scheme.contact == ContactLevel::Position && !self.model.interfaces.is_empty() {
+        if self.model.scheme.contact == ContactLevel::Position && !self.model.interfaces.is_empty()
+        {
             trial.map = self.detect(frame, &trial.u);
         }
         trial.x = local_variable(frame, &trial.map, self.memory.cone, &trial.u, &trial.v);
         trial.r = self.memory.recall(&trial.map);
         trial.contact_force.fill(0.0);
-        trial.map.apply_transpose(&trial.r, &mut trial.contact_force);
+        trial
+            .map
+            .apply_transpose(&trial.r, &mut trial.contact_force);
         Ok(())
     }
 
     /// Factorizes the bodies whose tangent is missing or no longer worth keeping.
-    fn refresh_tangents(&mut self, frame: &StepFrame<'_>, trial: &Trial, monitor: &Monitor) -> Result<(), StepFailure> {
-        let stale: Vec<bool> = (0..self.bodies.len()).map(|b| monitor.is_stale(b, &self.bodies[b], frame)).collect();
+    fn refresh_tangents(
+        &mut self,
+        frame: &StepFrame<'_>,
+        trial: &Trial,
+        monitor: &Monitor,
+    ) -> Result<(), StepFailure> {
+        let stale: Vec<bool> = (0..self.bodies.len())
+            .map(|b| monitor.is_stale(b, &self.bodies[b], frame))
+            .collect();
         if !stale.contains(&true) {
             return Ok(());
         }
+        self.extrapolation.forget();
         let start = self.clock.seconds();
         let mut force = vec![0.0; trial.u.len()];
-        self.model.solid.tangent(&trial.u, &mut self.work, &mut force).map_err(inverted)?;
+        self.model
+            .solid
+            .tangent(&trial.u, &mut self.work, &mut force)
+            .map_err(inverted)?;
         self.counters.tangent_evaluations += 1;
         self.book(Phase::Elements, start);
         let start = self.clock.seconds();
         let parts = MatrixParts {
             mass: &self.model.mass,
             mass_damping: self.model.damping.mass,
-            initial_stiffness: self.initial_stiffness.as_ref().map(|w| (w, self.model.damping.stiffness)),
+            initial_stiffness: self
+                .initial_stiffness
+                .as_ref()
+                .map(|w| (w, self.model.damping.stiffness)),
         };
         for (body, _) in self.bodies.iter_mut().zip(&stale).filter(|(_, s)| **s) {
             body.refactor(&self.work, parts, frame.weights, &mut self.counters)?;
@@ -233,7 +298,12 @@ impl<'m> Stepper<'m> {
     }
 
     /// The correction of all displacements that balances the linearised bodies under the contact law.
-    fn correction(&mut self, frame: &StepFrame<'_>, trial: &Trial, tolerance: f64) -> Result<Vec<f64>, StepFailure> {
+    fn correction(
+        &mut self,
+        frame: &StepFrame<'_>,
+        trial: &Trial,
+        tolerance: f64,
+    ) -> Result<Vec<f64>, StepFailure> {
         let mut z = vec![0.0; trial.u.len()];
         let start = self.clock.seconds();
         let rhs = self.right_hand_side(frame, trial);
@@ -248,11 +318,17 @@ impl<'m> Stepper<'m> {
             }
         }
         let start = self.clock.seconds();
-        let linearised =
-            LinearisedContact::new(frame, &mut self.memory, &mut self.bodies, trial, &mut self.counters)?;
+        let linearised = LinearisedContact::new(
+            frame,
+            &mut self.memory,
+            &mut self.bodies,
+            trial,
+            &mut self.counters,
+        )?;
         self.book(Phase::Condensation, start);
         let start = self.clock.seconds();
-        let force = linearised.solve(self.model, tolerance, &mut self.memory, &mut self.counters)?;
+        let force =
+            linearised.solve(self.model, tolerance, &mut self.memory, &mut self.counters)?;
         self.book(Phase::Contact, start);
         self.substitute_back(Some(&force), &mut z)?;
         Ok(z)
@@ -262,8 +338,12 @@ impl<'m> Stepper<'m> {
         let mut rhs = trial.balance.clone();
         if let Some(pending) = &trial.pending {
             let mut coupling = vec![0.0; rhs.len()];
-            self.model.solid.tangent_times(&self.work, pending, &mut coupling);
-            rhs.iter_mut().zip(&coupling).for_each(|(b, k)| *b -= frame.weights.stiffness * k);
+            self.model
+                .solid
+                .tangent_times(&self.work, pending, &mut coupling);
+            rhs.iter_mut()
+                .zip(&coupling)
+                .for_each(|(b, k)| *b -= frame.weights.stiffness * k);
         }
         rhs
     }
@@ -282,13 +362,22 @@ impl<'m> Stepper<'m> {
         let cone = self.memory.cone;
         let mut moved = vec![0.0; trial.x.len()];
         trial.map.apply(z, &mut moved);
-        (0..trial.map.contacts.len()).map(|k| cone * k + cone - 1).all(|n| trial.x[n] + moved[n] >= 0.0)
+        (0..trial.map.contacts.len())
+            .map(|k| cone * k + cone - 1)
+            .all(|n| trial.x[n] + moved[n] >= 0.0)
     }
 
     /// Moves the iterate; a correction that turns an element inside out is halved.
-    fn apply(&mut self, frame: &StepFrame<'_>, trial: &mut Trial, mut z: Vec<f64>) -> Result<(), StepFailure> {
+    fn apply(
+        &mut self,
+        frame: &StepFrame<'_>,
+        trial: &mut Trial,
+        mut z: Vec<f64>,
+    ) -> Result<(), StepFailure> {
         if let Some(pending) = trial.pending.take() {
             z.iter_mut().zip(&pending).for_each(|(z, p)| *z += p);
+        } else {
+            self.extrapolate(trial, &mut z);
         }
         let from = trial.u.clone();
         let mut scale = 1.0;
@@ -307,6 +396,18 @@ impl<'m> Stepper<'m> {
                 }
             }
         }
+    }
+
+    /// Lets the earlier corrections of the step improve the correction and the contact forces.
+    fn extrapolate(&mut self, trial: &Trial, z: &mut [f64]) {
+        let mut iterate: Vec<f64> = trial.u.iter().zip(&*z).map(|(u, z)| u + z).collect();
+        iterate.extend(self.memory.flat_forces());
+        self.extrapolation.apply(&mut iterate, z);
+        let (u, forces) = iterate.split_at(z.len());
+        z.iter_mut()
+            .zip(u.iter().zip(&trial.u))
+            .for_each(|(z, (new, old))| *z = new - old);
+        self.memory.set_flat_forces(forces);
     }
 
     /// What the prescribed dofs still lack after a shortened correction.
@@ -328,6 +429,9 @@ fn inverted(error: FeError) -> StepFailure {
 
 impl std::fmt::Debug for Stepper<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Stepper").field("bodies", &self.bodies.len()).field("counters", &self.counters).finish()
+        f.debug_struct("Stepper")
+            .field("bodies", &self.bodies.len())
+            .field("counters", &self.counters)
+            .finish()
     }
 }

@@ -45,7 +45,11 @@ pub(crate) struct Trial {
 }
 
 /// Damping force `A v` with `A = mass M + stiffness K_0`.
-pub(crate) fn damping_force(model: &Model, initial: Option<&ElementWorkspace>, v: &[f64]) -> Vec<f64> {
+pub(crate) fn damping_force(
+    model: &Model,
+    initial: Option<&ElementWorkspace>,
+    v: &[f64],
+) -> Vec<f64> {
     let mut force = vec![0.0; v.len()];
     if model.damping.mass != 0.0 {
         model.mass.times(v, &mut force);
@@ -54,13 +58,21 @@ pub(crate) fn damping_force(model: &Model, initial: Option<&ElementWorkspace>, v
     if let Some(work) = initial {
         let mut elastic = vec![0.0; v.len()];
         model.solid.tangent_times(work, v, &mut elastic);
-        force.iter_mut().zip(&elastic).for_each(|(f, e)| *f += model.damping.stiffness * e);
+        force
+            .iter_mut()
+            .zip(&elastic)
+            .for_each(|(f, e)| *f += model.damping.stiffness * e);
     }
     force
 }
 
 impl<'a> StepFrame<'a> {
-    pub(crate) fn new(model: &'a Model, now: &'a State, dt: f64, initial: Option<&ElementWorkspace>) -> Self {
+    pub(crate) fn new(
+        model: &'a Model,
+        now: &'a State,
+        dt: f64,
+        initial: Option<&ElementWorkspace>,
+    ) -> Self {
         let mut external_force = vec![0.0; model.dof_count()];
         model.external_force(now.time + dt, &mut external_force);
         let xi = model.scheme.force_weight();
@@ -71,7 +83,15 @@ impl<'a> StepFrame<'a> {
                 (1.0 - xi) * start + xi * external_force[i]
             })
             .collect();
-        Self { model, now, dt, weights: model.scheme.weights(dt), external_force, constant_force, start_damping }
+        Self {
+            model,
+            now,
+            dt,
+            weights: model.scheme.weights(dt),
+            external_force,
+            constant_force,
+            start_damping,
+        }
     }
 
     pub(crate) fn end(&self) -> f64 {
@@ -80,20 +100,42 @@ impl<'a> StepFrame<'a> {
 
     /// Where Newton starts: free flight, or the last increment again in an equilibrium path. The
     /// prescribed dofs start there too, and what they still lack is returned as pending.
-    pub(crate) fn predict(&self, fixed: &[bool], at_breakpoint: bool) -> (Vec<f64>, Option<Vec<f64>>) {
+    pub(crate) fn predict(
+        &self,
+        fixed: &[bool],
+        at_breakpoint: bool,
+    ) -> (Vec<f64>, Option<Vec<f64>>) {
         let now = self.now;
         let mut u: Vec<f64> = match (self.model.scheme.inertia, now.last_dt) {
-            (Inertia::Dynamic, _) => now.u.iter().zip(&now.v).map(|(u, v)| u + self.dt * v).collect(),
+            (Inertia::Dynamic, _) => now
+                .u
+                .iter()
+                .zip(&now.v)
+                .map(|(u, v)| u + self.dt * v)
+                .collect(),
             (Inertia::QuasiStatic, Some(last)) if !at_breakpoint => {
                 let ratio = self.dt / last;
-                now.u.iter().zip(&now.u_before).map(|(u, before)| u + ratio * (u - before)).collect()
+                now.u
+                    .iter()
+                    .zip(&now.u_before)
+                    .map(|(u, before)| u + ratio * (u - before))
+                    .collect()
             }
             _ => now.u.clone(),
         };
         let mut target = u.clone();
         self.model.prescribe(self.end(), &mut target);
-        let step = now.u.iter().zip(&target).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let jump = u.iter().zip(&target).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let step = now
+            .u
+            .iter()
+            .zip(&target)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        let jump = u
+            .iter()
+            .zip(&target)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
         if jump <= 0.05 * step {
             return (target, None);
         }
@@ -101,7 +143,9 @@ impl<'a> StepFrame<'a> {
             let at = u[i];
             u[i] = if is_fixed { now.u[i] } else { at };
         }
-        let pending = (0..u.len()).map(|i| if fixed[i] { target[i] - u[i] } else { 0.0 }).collect();
+        let pending = (0..u.len())
+            .map(|i| if fixed[i] { target[i] - u[i] } else { 0.0 })
+            .collect();
         (u, Some(pending))
     }
 
@@ -111,7 +155,11 @@ impl<'a> StepFrame<'a> {
         let (now, dt) = (self.now, self.dt);
         for i in 0..u.len() {
             let du = u[i] - now.u[i];
-            v[i] = if fixed[i] { du / dt } else { self.model.scheme.end_velocity(now.v[i], du, dt) };
+            v[i] = if fixed[i] {
+                du / dt
+            } else {
+                self.model.scheme.end_velocity(now.v[i], du, dt)
+            };
         }
     }
 
@@ -120,14 +168,20 @@ impl<'a> StepFrame<'a> {
         let xi = self.weights.stiffness;
         let balance = &mut trial.balance;
         if self.model.scheme.inertia == Inertia::Dynamic {
-            let rate: Vec<f64> = trial.v.iter().zip(&self.now.v).map(|(v1, v0)| (v1 - v0) / self.dt).collect();
+            let rate: Vec<f64> = trial
+                .v
+                .iter()
+                .zip(&self.now.v)
+                .map(|(v1, v0)| (v1 - v0) / self.dt)
+                .collect();
             self.model.mass.times(&rate, balance);
             balance.iter_mut().for_each(|b| *b = -*b);
         } else {
             balance.fill(0.0);
         }
         for i in 0..balance.len() {
-            balance[i] += self.constant_force[i] - xi * (trial.internal_force[i] + trial.damping_force[i]);
+            balance[i] +=
+                self.constant_force[i] - xi * (trial.internal_force[i] + trial.damping_force[i]);
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use contact_bipotential::{Interface, Master, Obstacle, Shape};
 use fe_core::{
-    Block, BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface,
-    Table, solid_block,
+    Block, BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation,
+    Solid, Surface, Table, solid_block,
 };
 use nscd::{ContactLevel, Inertia, Load, Model, Rayleigh, Scheme, Settings, Span};
 
@@ -50,15 +50,27 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
         supports: supports(loaded, solid.mesh())?,
         loads: loads(loaded, &solid, &mass)?,
         interfaces: interfaces(loaded, solid.mesh())?,
-        damping: Rayleigh { mass: scene.damping.mass, stiffness: scene.damping.stiffness },
+        damping: Rayleigh {
+            mass: scene.damping.mass,
+            stiffness: scene.damping.stiffness,
+        },
         scheme: scheme(scene),
         settings: settings(scene),
         mass,
         solid,
     };
     let probes = probes(scene, model.solid.mesh(), &first_node);
-    let span = Span { end: scene.time.end, dt: scene.time.dt };
-    Ok(Built { model, velocity, span, probes, body_of_block })
+    let span = Span {
+        end: scene.time.end,
+        dt: scene.time.dt,
+    };
+    Ok(Built {
+        model,
+        velocity,
+        span,
+        probes,
+        body_of_block,
+    })
 }
 
 /// The meshes of all bodies in one, and where the nodes of each body begin.
@@ -67,14 +79,28 @@ fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
     let mut all = Mesh::default();
     let mut first_node = vec![0];
     for (name, body) in &scene.bodies {
-        let spec::Mesh::Box { min, max, cells, grading, element } = &body.mesh;
+        let spec::Mesh::Box {
+            min,
+            max,
+            cells,
+            grading,
+            element,
+        } = &body.mesh;
         let kind = match element {
             spec::Element::Hex8 => CellKind::Hex8,
             spec::Element::Tet4 => CellKind::Tet4,
         };
         let cells = cells.map(|c| c * scene.refine);
-        let part = BoxMesh { min: *min, max: *max, cells, grading: *grading, kind };
-        let part = part.generate(name).map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
+        let part = BoxMesh {
+            min: *min,
+            max: *max,
+            cells,
+            grading: *grading,
+            kind,
+        };
+        let part = part
+            .generate(name)
+            .map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
         all.append(name, part);
         first_node.push(all.points.len());
     }
@@ -110,9 +136,17 @@ fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneEr
     let scene = &loaded.scene;
     let one = |(name, given): (&String, &spec::Prescribed)| {
         let path = format!("motions.{name}");
-        let nodes = mesh.node_set(&given.nodes).map_err(|e| loaded.refuse(&format!("{path}.nodes"), e.to_string()))?;
-        let motion = motion(&given.motion).map_err(|e| loaded.refuse(&format!("{path}.motion"), e.to_string()))?;
-        Ok(Dirichlet { nodes: nodes.to_vec(), components: given.mask(), motion, name: name.clone() })
+        let nodes = mesh
+            .node_set(&given.nodes)
+            .map_err(|e| loaded.refuse(&format!("{path}.nodes"), e.to_string()))?;
+        let motion = motion(&given.motion)
+            .map_err(|e| loaded.refuse(&format!("{path}.motion"), e.to_string()))?;
+        Ok(Dirichlet {
+            nodes: nodes.to_vec(),
+            components: given.mask(),
+            motion,
+            name: name.clone(),
+        })
     };
     scene.motions.iter().map(one).collect()
 }
@@ -126,29 +160,58 @@ fn table(table: &spec::Table) -> Result<Table, FeError> {
 }
 
 fn motion(given: &spec::Motion) -> Result<Motion, FeError> {
-    let spec::Motion::Move { translation: [x, y, z], rotation } = given else { return Ok(Motion::still()) };
+    let spec::Motion::Move {
+        translation: [x, y, z],
+        rotation,
+    } = given
+    else {
+        return Ok(Motion::still());
+    };
     let rotation = match rotation {
         Some(r) => Some(Rotation::new(r.point, r.axis, table(&r.angle)?)?),
         None => None,
     };
-    Ok(Motion { translation: [table(x)?, table(y)?, table(z)?], rotation })
+    Ok(Motion {
+        translation: [table(x)?, table(y)?, table(z)?],
+        rotation,
+    })
 }
 
-fn loads(loaded: &LoadedScene, solid: &Solid, mass: &fe_core::MassMatrix) -> Result<Vec<Load>, SceneError> {
+fn loads(
+    loaded: &LoadedScene,
+    solid: &Solid,
+    mass: &fe_core::MassMatrix,
+) -> Result<Vec<Load>, SceneError> {
     let mesh = solid.mesh();
     let one = |(name, load): (&String, &spec::Load)| {
         let refuse = |e: String| loaded.refuse(&format!("loads.{name}"), e);
         match load {
             spec::Load::Gravity(acceleration) => {
                 let factor = Table::constant(1.0);
-                let gravity = Gravity { acceleration: *acceleration, factor: factor.clone() };
-                let forces = gravity.nodal_forces(mass).map_err(|e| refuse(e.to_string()))?;
+                let gravity = Gravity {
+                    acceleration: *acceleration,
+                    factor: factor.clone(),
+                };
+                let forces = gravity
+                    .nodal_forces(mass)
+                    .map_err(|e| refuse(e.to_string()))?;
                 Ok(Load { forces, factor })
             }
-            spec::Load::Traction { facets, traction, factor } => {
-                let facets = mesh.facet_set(facets).map_err(|e| refuse(e.to_string()))?.to_vec();
+            spec::Load::Traction {
+                facets,
+                traction,
+                factor,
+            } => {
+                let facets = mesh
+                    .facet_set(facets)
+                    .map_err(|e| refuse(e.to_string()))?
+                    .to_vec();
                 let factor = table(factor).map_err(|e| refuse(e.to_string()))?;
-                let load = DeadTraction { facets, traction: *traction, factor: factor.clone() };
+                let load = DeadTraction {
+                    facets,
+                    traction: *traction,
+                    factor: factor.clone(),
+                };
                 let forces = load.nodal_forces(mesh).map_err(|e| refuse(e.to_string()))?;
                 Ok(Load { forces, factor })
             }
@@ -159,7 +222,8 @@ fn loads(loaded: &LoadedScene, solid: &Solid, mass: &fe_core::MassMatrix) -> Res
 
 fn interfaces(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Interface>, SceneError> {
     let one = |(name, given): (&String, &spec::Interface)| {
-        let built = interface(mesh, name, given).map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e))?;
+        let built = interface(mesh, name, given)
+            .map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e))?;
         built
             .validate(mesh.points.len(), mesh.dim)
             .map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e.to_string()))?;
@@ -198,12 +262,29 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
 fn shape(master: &spec::Master) -> Shape {
     match *master {
         spec::Master::Sphere { center, radius } => Shape::Sphere { center, radius },
-        spec::Master::Cylinder { point, axis, radius } => Shape::Cylinder { point, axis, radius },
-        spec::Master::Cone { apex, axis, semi_apex_angle } => {
-            Shape::Cone { apex, axis, semi_apex_angle: semi_apex_angle.to_radians() }
-        }
+        spec::Master::Cylinder {
+            point,
+            axis,
+            radius,
+        } => Shape::Cylinder {
+            point,
+            axis,
+            radius,
+        },
+        spec::Master::Cone {
+            apex,
+            axis,
+            semi_apex_angle,
+        } => Shape::Cone {
+            apex,
+            axis,
+            semi_apex_angle: semi_apex_angle.to_radians(),
+        },
         spec::Master::Plane { point, normal } => Shape::Plane { point, normal },
-        spec::Master::Facets(_) => Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] },
+        spec::Master::Facets(_) => Shape::Plane {
+            point: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+        },
     }
 }
 
@@ -213,7 +294,11 @@ fn facet_size(surface: &Surface, mesh: &Mesh) -> f64 {
         let (a, b) = (mesh.points[a as usize], mesh.points[b as usize]);
         (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
     };
-    let pairs = surface.facets.iter().flat_map(|f| f.nodes().iter().flat_map(|a| f.nodes().iter().map(|b| (*a, *b))));
+    let pairs = surface.facets.iter().flat_map(|f| {
+        f.nodes()
+            .iter()
+            .flat_map(|a| f.nodes().iter().map(|b| (*a, *b)))
+    });
     pairs.map(|(a, b)| distance(a, b)).fold(0.0, f64::max)
 }
 
@@ -238,8 +323,13 @@ fn settings(scene: &Scene) -> Settings {
         newton_tolerance: given.newton_tolerance.unwrap_or(default.newton_tolerance),
         newton_iterations: given.max_newton.unwrap_or(default.newton_iterations),
         contact_tolerance: given.contact_tolerance.unwrap_or(default.contact_tolerance),
-        contact_iterations: given.max_contact_iterations.unwrap_or(default.contact_iterations),
-        smallest_step: scene.time.min_dt.map_or(default.smallest_step, |dt| dt / scene.time.dt),
+        contact_iterations: given
+            .max_contact_iterations
+            .unwrap_or(default.contact_iterations),
+        smallest_step: scene
+            .time
+            .min_dt
+            .map_or(default.smallest_step, |dt| dt / scene.time.dt),
         ..default
     }
 }
@@ -247,9 +337,15 @@ fn settings(scene: &Scene) -> Settings {
 fn probes(scene: &Scene, mesh: &Mesh, first_node: &[usize]) -> Vec<u32> {
     let nearest = |probe: &spec::Probe| {
         let body = scene.bodies.get_index_of(&probe.body).unwrap_or(0);
-        let distance = |n: &usize| (0..3).map(|i| (mesh.points[*n][i] - probe.node[i]).powi(2)).sum::<f64>();
+        let distance = |n: &usize| {
+            (0..3)
+                .map(|i| (mesh.points[*n][i] - probe.node[i]).powi(2))
+                .sum::<f64>()
+        };
         let nodes = first_node[body]..first_node[body + 1];
-        nodes.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0) as u32
+        nodes
+            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(0) as u32
     };
     scene.output.probes.values().map(nearest).collect()
 }

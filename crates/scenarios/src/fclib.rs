@@ -71,10 +71,17 @@ pub fn read(path: &Path) -> Result<ContactProblem, FclibError> {
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, FclibError> {
-    let file = |reason: String| FclibError::File { path: path.to_owned(), reason };
-    let length = std::fs::metadata(path).map_err(|e| file(e.to_string()))?.len();
+    let file = |reason: String| FclibError::File {
+        path: path.to_owned(),
+        reason,
+    };
+    let length = std::fs::metadata(path)
+        .map_err(|e| file(e.to_string()))?
+        .len();
     if length > LARGEST_FILE {
-        return Err(file(format!("{length} bytes, more than the {LARGEST_FILE} that are read")));
+        return Err(file(format!(
+            "{length} bytes, more than the {LARGEST_FILE} that are read"
+        )));
     }
     std::fs::read(path).map_err(|e| file(e.to_string()))
 }
@@ -102,18 +109,4 @@ fn turned_entries(entries: &mut [(usize, usize, f64)], dim: usize) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_normal_moves_to_the_end() {
-        assert_eq!(turned(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], 3), [2.0, 3.0, 1.0, 5.0, 6.0, 4.0]);
-        assert_eq!(turned(&[1.0, 2.0, 3.0, 4.0], 2), [2.0, 1.0, 4.0, 3.0]);
-    }
-
-    #[test]
-    fn a_missing_file_is_named() {
-        let message = read(Path::new("nowhere/at/all.dat")).unwrap_err().to_string();
-        assert!(message.starts_with("nowhere/at/all.dat: "), "{message}");
-    }
-}
+mod tests;

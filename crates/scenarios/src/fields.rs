@@ -39,7 +39,9 @@ impl Fields {
             contact_status,
             von_mises: stress.iter().map(|s| s.von_mises).collect(),
             cauchy: stress.iter().flat_map(|s| s.cauchy).collect(),
-            body: blocks.flat_map(|(b, &body)| vec![body; b.element_count()]).collect(),
+            body: blocks
+                .flat_map(|(b, &body)| vec![body; b.element_count()])
+                .collect(),
         }
     }
 
@@ -54,7 +56,14 @@ impl Fields {
         Frame {
             time: state.time,
             points: &mesh.points,
-            cells: mesh.blocks.iter().map(|b| Cells { shape: shape(b.kind), connectivity: &b.cells }).collect(),
+            cells: mesh
+                .blocks
+                .iter()
+                .map(|b| Cells {
+                    shape: shape(b.kind),
+                    connectivity: &b.cells,
+                })
+                .collect(),
             point_data: vec![
                 array("displacement", Values::Vector(&self.displacement)),
                 array("velocity", Values::Vector(&self.velocity)),
@@ -75,7 +84,9 @@ impl Fields {
         let cells = blocks.flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
         let stress = stresses(built, state);
         let around = cells.zip(&stress).filter(|(cell, _)| cell.contains(&node));
-        let (sum, count) = around.fold((0.0, 0), |(sum, count), (_, s)| (sum + s.von_mises, count + 1));
+        let (sum, count) = around.fold((0.0, 0), |(sum, count), (_, s)| {
+            (sum + s.von_mises, count + 1)
+        });
         sum / f64::from(count.max(1))
     }
 }
@@ -84,10 +95,19 @@ impl Fields {
 fn stresses(built: &Built, state: &State) -> Vec<ElementState> {
     let mut all = Vec::new();
     for block in built.model.solid.blocks() {
-        let empty = ElementState { cauchy: [0.0; 6], von_mises: 0.0, det_f_min: 0.0, det_f_max: 0.0 };
+        let empty = ElementState {
+            cauchy: [0.0; 6],
+            von_mises: 0.0,
+            det_f_min: 0.0,
+            det_f_max: 0.0,
+        };
         let mut states = vec![empty; block.element_count()];
         if block.stress_state(&state.u, &mut states).is_err() {
-            states.fill(ElementState { cauchy: [f64::NAN; 6], von_mises: f64::NAN, ..empty });
+            states.fill(ElementState {
+                cauchy: [f64::NAN; 6],
+                von_mises: f64::NAN,
+                ..empty
+            });
         }
         all.extend(states);
     }

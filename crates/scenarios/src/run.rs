@@ -8,7 +8,7 @@ use thiserror::Error;
 use crate::build::{Built, build};
 use crate::clock::Stopwatch;
 use crate::fields::Fields;
-use crate::output::{EnergySummary, Energies, Force, OutputError, Results, Row, Status, Summary};
+use crate::output::{Energies, EnergySummary, Force, OutputError, Results, Row, Status, Summary};
 use crate::progress::Progress;
 use crate::spec::{LoadedScene, Quantity, SceneError};
 
@@ -28,17 +28,35 @@ pub enum RunError {
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run(loaded: &LoadedScene, folder: &Path, watch: &mut dyn FnMut(&Progress)) -> Result<Summary, RunError> {
+pub fn run(
+    loaded: &LoadedScene,
+    folder: &Path,
+    watch: &mut dyn FnMut(&Progress),
+) -> Result<Summary, RunError> {
     let stopwatch = Stopwatch::start();
     let built = build(loaded).map_err(Box::new)?;
     let refuse = |e: NscdError| Box::new(loaded.refuse("time", e.to_string()));
     let mut stepper = Stepper::new(&built.model, Box::new(stopwatch)).map_err(refuse)?;
-    let mut state = stepper.initial_state(built.velocity.clone()).map_err(refuse)?;
+    let mut state = stepper
+        .initial_state(built.velocity.clone())
+        .map_err(refuse)?;
     let results = Results::create(folder, &loaded.scene)?;
-    let mut recorder = Recorder { loaded, built: &built, results, watch, failure: None };
+    let mut recorder = Recorder {
+        loaded,
+        built: &built,
+        results,
+        watch,
+        failure: None,
+    };
     recorder.start(&state)?;
     let mut totals = Totals::default();
-    let end = march(&mut stepper, &mut state, built.span, &mut totals, &mut recorder);
+    let end = march(
+        &mut stepper,
+        &mut state,
+        built.span,
+        &mut totals,
+        &mut recorder,
+    );
     if let Some(failure) = recorder.failure {
         return Err(failure.into());
     }
@@ -81,7 +99,8 @@ impl Recorder<'_> {
             return Ok(());
         }
         let fields = Fields::new(self.built, state);
-        self.results.frame(step, &fields.frame(self.built, state), last)
+        self.results
+            .frame(step, &fields.frame(self.built, state), last)
     }
 
     fn row(&self, state: &State, report: &StepReport, totals: &Totals) -> Row {
@@ -89,7 +108,15 @@ impl Recorder<'_> {
         Row {
             time: state.time,
             energies: energies(state, totals),
-            forces: resultants.map(|r| Force { force: r.force, moment: r.moment }).collect(),
+            contacts: report.contacts_closed,
+            penetration: report.penetration,
+            contact_error: report.contact_error,
+            forces: resultants
+                .map(|r| Force {
+                    force: r.force,
+                    moment: r.moment,
+                })
+                .collect(),
             probes: self.probes(state),
         }
     }
@@ -102,7 +129,13 @@ impl Recorder<'_> {
             v[..dim].copy_from_slice(&field[dim * node as usize..dim * (node as usize + 1)]);
             v
         };
-        let probes = self.loaded.scene.output.probes.values().zip(&self.built.probes);
+        let probes = self
+            .loaded
+            .scene
+            .output
+            .probes
+            .values()
+            .zip(&self.built.probes);
         let values = probes.flat_map(|(probe, &node)| {
             probe.quantities.iter().flat_map(move |q| match q {
                 Quantity::Displacement => vector(&state.u, node),
@@ -114,7 +147,13 @@ impl Recorder<'_> {
         values.collect()
     }
 
-    fn record(&mut self, stepper: &Stepper<'_>, state: &State, report: &StepReport, totals: &Totals) -> Result<(), OutputError> {
+    fn record(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        report: &StepReport,
+        totals: &Totals,
+    ) -> Result<(), OutputError> {
         let row = self.row(state, report, totals);
         self.results.record(&row)?;
         self.frame(state, stepper.counters.steps as usize, false)
@@ -137,11 +176,12 @@ impl Observer for Recorder<'_> {
             newton_iterations: stepper.counters.newton_iterations as usize,
             contacts: report.contacts_closed,
         });
-        self.record(stepper, state, report, totals).map_err(|failure| {
-            let text = failure.to_string();
-            self.failure = Some(failure);
-            text.into()
-        })
+        self.record(stepper, state, report, totals)
+            .map_err(|failure| {
+                let text = failure.to_string();
+                self.failure = Some(failure);
+                text.into()
+            })
     }
 }
 
@@ -170,7 +210,11 @@ fn summarise(
     let (counters, solid) = (&stepper.counters, &stepper.model().solid);
     let phases = Phase::ALL.iter().zip(stepper.phases);
     Summary {
-        status: if stopped.is_none() { Status::Completed } else { Status::Stopped },
+        status: if stopped.is_none() {
+            Status::Completed
+        } else {
+            Status::Stopped
+        },
         reason: stopped.map(|e| e.to_string()),
         time: state.time,
         steps: counters.steps as usize,
@@ -182,7 +226,9 @@ fn summarise(
         dofs: solid.dof_count(),
         elements: solid.element_count(),
         contacts_max: counters.contacts_max as usize,
-        phases: phases.map(|((_, name), seconds)| ((*name).to_owned(), seconds)).collect(),
+        phases: phases
+            .map(|((_, name), seconds)| ((*name).to_owned(), seconds))
+            .collect(),
         energy: EnergySummary::new(totals.initial_energy, &energies(state, totals)),
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

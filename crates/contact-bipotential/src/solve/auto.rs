@@ -60,7 +60,7 @@ pub(crate) fn auto<const D: usize>(
     let plans = [
         ProximalPlan {
             alpha: first,
-            budget: steps / 4,
+            budget: steps / 2,
             ..ProximalPlan::default()
         },
         ProximalPlan {
@@ -72,7 +72,7 @@ pub(crate) fn auto<const D: usize>(
         ProximalPlan {
             alpha: 1.0,
             inner_steps: 20,
-            budget: steps / 2,
+            budget: steps / 4,
             rise: 2.0,
         },
     ];

@@ -1,7 +1,7 @@
 //! Sweeps over the contacts, each solved with the others held.
 
 use crate::delassus::Delassus;
-use crate::local::{Matrix, Vector, load, store};
+use crate::local::{Matrix, Vector, load, store, trace};
 use crate::problem::ContactProblem;
 use crate::solve::iterate::{Iterate, Work};
 use crate::solve::local_newton::{joli_feng, predict_correct};
@@ -80,10 +80,11 @@ impl<'a, const D: usize> Sweeper<'a, D> {
             }
         }
         let mu = self.problem.mu[c];
+        let scale = trace(w) / D as f64;
         let new = match self.kernel {
             Kernel::Exact => self.blocks[c].solve(&b, mu).r,
-            Kernel::PredictCorrect => predict_correct(w, self.blocks[c].scale(), &b, mu, r),
-            Kernel::JoliFeng => joli_feng(w, self.blocks[c].scale(), &b, mu, r),
+            Kernel::PredictCorrect => predict_correct(w, scale, &b, mu, r),
+            Kernel::JoliFeng => joli_feng(w, scale, &b, mu, r),
         };
         let mut step = new;
         let (mut moved, mut sum) = (false, 0.0);

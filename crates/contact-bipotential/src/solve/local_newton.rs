@@ -4,7 +4,7 @@ use crate::cone::{self, Region};
 use crate::law::natural_map;
 use crate::local::{Matrix, Vector, affine, dot, max_abs, solve_small, tangential_norm};
 
-/// Predictor `r* = r - rho (x + mu |x_t| n)` and corrector `Proj(r*)` [Feng2007, eq. 28-33], a few times.
+/// Predictor `r* = r - rho (x + mu |x_t| n)` and corrector `Proj(r*)` [Hu2022, eq. 30-32], a few times.
 pub(crate) fn predict_correct<const D: usize>(
     w: &Matrix<D>,
     scale: f64,

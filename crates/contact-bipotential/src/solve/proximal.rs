@@ -2,7 +2,7 @@
 //!
 //! Each outer step solves the problem with `W + alpha diag(w_c)` instead of `W` and `q - alpha w_c r_k` instead of `q`, which
 //! has the same solutions at its fixed points, is never rank-deficient and, for large `alpha`, contractive enough for a
-//! plain Newton method [Acary2018, sec. 4.5]. `alpha` is what a Newton step can stand: it falls fast while the inner
+//! plain Newton method. `alpha` is what a Newton step can stand: it falls fast while the inner
 //! iteration is easy, slowly while it works hard, and rises when it fails. Where `W` is regular the first try, with an
 //! `alpha` that hardly matters, already is Newton's method and converges quadratically.
 

@@ -43,8 +43,14 @@ pub struct SequenceSolver {
 
 impl SequenceSolver {
     /// As [`solve`]; [`Method::Auto`] tries Newton's method with the remembered factors first.
-    pub fn solve(&mut self, problem: &ContactProblem, r: &mut Vec<f64>, settings: &SolveSettings) -> Outcome {
-        let sized = r.len() == problem.q.len() && r.len() >= SMALLEST && r.iter().all(|x| x.is_finite());
+    pub fn solve(
+        &mut self,
+        problem: &ContactProblem,
+        r: &mut Vec<f64>,
+        settings: &SolveSettings,
+    ) -> Outcome {
+        let sized =
+            r.len() == problem.q.len() && r.len() >= SMALLEST && r.iter().all(|x| x.is_finite());
         if sized && settings.method == Method::Auto && problem.check().is_ok() {
             if let Delassus::Dense(w) = &problem.w {
                 let outcome = match problem.cone {
@@ -74,7 +80,9 @@ impl SequenceSolver {
         let mut x = Iterate::new(&truth, r);
         let mut best = x.clone();
         let mut work = Work::default();
-        while !best.is_within(settings.tolerance) && work.newton_steps < NEWTON_STEPS.min(settings.max_iterations) {
+        while !best.is_within(settings.tolerance)
+            && work.newton_steps < NEWTON_STEPS.min(settings.max_iterations)
+        {
             work.newton_steps += 1;
             let system = System::<D>::new(problem, w, truth.scales(), &x);
             let Some(dr) = self.step(&system) else { break };
@@ -88,7 +96,10 @@ impl SequenceSolver {
     fn step<const D: usize>(&mut self, system: &System<'_, D>) -> Option<Vec<f64>> {
         let rhs = system.right_side();
         let worth_it = self.excess * ROWS_PER_ITERATION <= rhs.len();
-        if let Some(factor) = self.factor.as_ref().filter(|f| worth_it && f.size() == rhs.len())
+        if let Some(factor) = self
+            .factor
+            .as_ref()
+            .filter(|f| worth_it && f.size() == rhs.len())
             && let Some((dr, iterations)) = gmres(system, factor, &rhs)
         {
             self.excess += iterations.saturating_sub(FEW);
@@ -112,9 +123,27 @@ struct System<'a, const D: usize> {
 }
 
 impl<'a, const D: usize> System<'a, D> {
-    fn new(problem: &'a ContactProblem, w: &'a Mat<f64>, scales: &'a [f64], x: &'a Iterate) -> Self {
-        let mode = |c: usize| Mode::of(problem.mu[c], scales[c], &load::<D>(&x.r, c), &load::<D>(&x.u, c));
-        System { problem, w, scales, modes: (0..problem.contacts()).map(mode).collect(), x }
+    fn new(
+        problem: &'a ContactProblem,
+        w: &'a Mat<f64>,
+        scales: &'a [f64],
+        x: &'a Iterate,
+    ) -> Self {
+        let mode = |c: usize| {
+            Mode::of(
+                problem.mu[c],
+                scales[c],
+                &load::<D>(&x.r, c),
+                &load::<D>(&x.u, c),
+            )
+        };
+        System {
+            problem,
+            w,
+            scales,
+            modes: (0..problem.contacts()).map(mode).collect(),
+            x,
+        }
     }
 
     /// The rows of contact `c` applied to its own `r` and to the velocity `v` that all reactions make.
@@ -194,10 +223,18 @@ impl Factor {
         let n = lu.nrows();
         let (mut order, mut place) = (vec![0; n], vec![0; n]);
         let params = Default::default();
-        let scratch = partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, params);
+        let scratch =
+            partial_pivoting::factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, params);
         let mut memory = MemBuffer::new(scratch);
         let stack = MemStack::new(&mut memory);
-        partial_pivoting::factor::lu_in_place(lu.as_mut(), &mut order, &mut place, Par::Seq, stack, params);
+        partial_pivoting::factor::lu_in_place(
+            lu.as_mut(),
+            &mut order,
+            &mut place,
+            Par::Seq,
+            stack,
+            params,
+        );
         Factor { lu, order, place }
     }
 
@@ -212,12 +249,23 @@ impl Factor {
         let order = PermRef::new_checked(&self.order, &self.place, n);
         let right = MatMut::from_column_major_slice_mut(x, n, 1);
         let stack = MemStack::new(&mut memory);
-        partial_pivoting::solve::solve_in_place(self.lu.as_ref(), self.lu.as_ref(), order, right, Par::Seq, stack);
+        partial_pivoting::solve::solve_in_place(
+            self.lu.as_ref(),
+            self.lu.as_ref(),
+            order,
+            right,
+            Par::Seq,
+            stack,
+        );
     }
 }
 
 /// GMRES with the factors on the right; `None` if it does not reach the forcing term soon.
-fn gmres<const D: usize>(system: &System<'_, D>, factor: &Factor, rhs: &[f64]) -> Option<(Vec<f64>, usize)> {
+fn gmres<const D: usize>(
+    system: &System<'_, D>,
+    factor: &Factor,
+    rhs: &[f64],
+) -> Option<(Vec<f64>, usize)> {
     let norm = length(rhs);
     if norm == 0.0 || !norm.is_finite() {
         return None;
@@ -264,17 +312,28 @@ struct Hessenberg {
 
 impl Hessenberg {
     fn new(norm: f64) -> Self {
-        Hessenberg { columns: Vec::new(), rotations: Vec::new(), right: vec![norm] }
+        Hessenberg {
+            columns: Vec::new(),
+            rotations: Vec::new(),
+            right: vec![norm],
+        }
     }
 
     /// Adds a column and returns the norm of the residual.
     fn push(&mut self, mut column: Vec<f64>) -> f64 {
         let k = self.columns.len();
         for (i, (c, s)) in self.rotations.iter().enumerate() {
-            (column[i], column[i + 1]) = (c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]);
+            (column[i], column[i + 1]) = (
+                c * column[i] + s * column[i + 1],
+                c * column[i + 1] - s * column[i],
+            );
         }
         let size = column[k].hypot(column[k + 1]);
-        let (c, s) = if size > 0.0 { (column[k] / size, column[k + 1] / size) } else { (1.0, 0.0) };
+        let (c, s) = if size > 0.0 {
+            (column[k] / size, column[k + 1] / size)
+        } else {
+            (1.0, 0.0)
+        };
         column[k] = size;
         column.truncate(k + 1);
         let last = self.right[k];

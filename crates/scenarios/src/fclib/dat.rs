@@ -26,12 +26,19 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ContactProblem, FclibError> {
         0 => dense(&mut words, size)?,
         1 => blocks(&mut words, contacts, dim)?,
         2 => printed(&mut words, size)?,
-        _ => return Err(words.error(format!("storage {storage}: 0 (dense), 1 (blocks) and 2 (sparse) are known"))),
+        _ => {
+            return Err(words.error(format!(
+                "storage {storage}: 0 (dense), 1 (blocks) and 2 (sparse) are known"
+            )));
+        }
     };
     turned_entries(&mut entries, dim);
     let q = words.numbers("q", size)?;
     let mu = words.numbers("mu", contacts)?;
-    let problem = |source| FclibError::Problem { path: path.to_owned(), source };
+    let problem = |source| FclibError::Problem {
+        path: path.to_owned(),
+        source,
+    };
     let cone = Cone::from_dim(dim).map_err(problem)?;
     let w = Delassus::from_entries(contacts, dim, &entries).map_err(problem)?;
     ContactProblem::new(w, turned(&q, dim), mu, cone).map_err(problem)
@@ -42,7 +49,12 @@ fn dense(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
     words.size("rows of the dense W", size)?;
     words.size("columns of the dense W", size)?;
     let values = words.numbers("W", size.saturating_mul(size))?;
-    Ok(values.iter().enumerate().filter(|(_, x)| **x != 0.0).map(|(k, &x)| (k % size, k / size, x)).collect())
+    Ok(values
+        .iter()
+        .enumerate()
+        .filter(|(_, x)| **x != 0.0)
+        .map(|(k, &x)| (k % size, k / size, x))
+        .collect())
 }
 
 /// Compressed rows of blocks.
@@ -60,7 +72,9 @@ fn blocks(words: &mut Words<'_>, contacts: usize, dim: usize) -> Result<Entries,
     let pointers = words.integers("row pointers", contacts + 1)?;
     let columns = words.integers("columns of blocks", count)?;
     if pointers[0] != 0 || pointers[contacts] != count || pointers.windows(2).any(|p| p[0] > p[1]) {
-        return Err(words.error(format!("row pointers do not rise from 0 to the {count} blocks")));
+        return Err(words.error(format!(
+            "row pointers do not rise from 0 to the {count} blocks"
+        )));
     }
     if let Some(c) = columns.iter().find(|c| **c >= contacts) {
         return Err(words.error(format!("block column {c} of {contacts} contacts")));
@@ -84,7 +98,9 @@ fn blocks(words: &mut Words<'_>, contacts: usize, dim: usize) -> Result<Entries,
 fn printed(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
     let kind = words.integer("kind of sparse matrix")?;
     if kind != 2 {
-        return Err(words.error(format!("sparse matrix of kind {kind}: only 2 (compressed columns) is known")));
+        return Err(words.error(format!(
+            "sparse matrix of kind {kind}: only 2 (compressed columns) is known"
+        )));
     }
     let count = words.after("nnz:")?.trim_end_matches(',').parse::<usize>();
     let count = count.map_err(|_| words.error("nnz: is not followed by a count".to_owned()))?;
@@ -94,14 +110,18 @@ fn printed(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
         for expected in ["col", "", ":", "locations"] {
             let word = words.next("column of W")?;
             if !expected.is_empty() && word != expected {
-                return Err(words.error(format!("'{word}' where '{expected}' of column {column} should stand")));
+                return Err(words.error(format!(
+                    "'{word}' where '{expected}' of column {column} should stand"
+                )));
             }
         }
         let first = words.integer("first location")?;
         words.next("to")?;
         let end = words.signed("last location")? + 1;
         if first != entries.len() || end < first as i64 || end > count as i64 {
-            return Err(words.error(format!("column {column} lies at {first} to {end} of {count} entries")));
+            return Err(words.error(format!(
+                "column {column} lies at {first} to {end} of {count} entries"
+            )));
         }
         for _ in first..end as usize {
             let row = words.integer("row of W")?;
@@ -126,14 +146,29 @@ struct Words<'a> {
 impl<'a> Words<'a> {
     fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, FclibError> {
         let text = std::str::from_utf8(bytes).map_err(|e| {
-            let line = 1 + bytes[..e.valid_up_to()].iter().filter(|b| **b == b'\n').count();
-            FclibError::Text { path: path.to_owned(), line, reason: "not text".to_owned() }
+            let line = 1 + bytes[..e.valid_up_to()]
+                .iter()
+                .filter(|b| **b == b'\n')
+                .count();
+            FclibError::Text {
+                path: path.to_owned(),
+                line,
+                reason: "not text".to_owned(),
+            }
         })?;
-        Ok(Words { path, rest: text, line: 1 })
+        Ok(Words {
+            path,
+            rest: text,
+            line: 1,
+        })
     }
 
     fn error(&self, reason: String) -> FclibError {
-        FclibError::Text { path: self.path.to_owned(), line: self.line, reason }
+        FclibError::Text {
+            path: self.path.to_owned(),
+            line: self.line,
+            reason,
+        }
     }
 
     fn next(&mut self, what: &str) -> Result<&'a str, FclibError> {
@@ -141,9 +176,14 @@ impl<'a> Words<'a> {
         let Some(start) = start else {
             return Err(self.error(format!("the file ends where {what} should stand")));
         };
-        self.line += self.rest.as_bytes()[..start].iter().filter(|b| **b == b'\n').count();
+        self.line += self.rest.as_bytes()[..start]
+            .iter()
+            .filter(|b| **b == b'\n')
+            .count();
         let rest = &self.rest[start..];
-        let end = rest.find(|c: char| c.is_ascii_whitespace()).unwrap_or(rest.len());
+        let end = rest
+            .find(|c: char| c.is_ascii_whitespace())
+            .unwrap_or(rest.len());
         self.rest = &rest[end..];
         Ok(&rest[..end])
     }
@@ -156,7 +196,8 @@ impl<'a> Words<'a> {
 
     fn signed(&mut self, what: &str) -> Result<i64, FclibError> {
         let word = self.next(what)?;
-        word.parse().map_err(|_| self.error(format!("{what} is '{}', not an integer", shown(word))))
+        word.parse()
+            .map_err(|_| self.error(format!("{what} is '{}', not an integer", shown(word))))
     }
 
     fn integer(&mut self, what: &str) -> Result<usize, FclibError> {
@@ -189,7 +230,10 @@ impl<'a> Words<'a> {
     /// Refuses a count that the rest of the file is too short for, before anything is reserved.
     fn fits(&self, what: &str, count: usize) -> Result<(), FclibError> {
         if count > self.rest.len() {
-            return Err(self.error(format!("{what} needs {count} numbers, the file ends {} bytes on", self.rest.len())));
+            return Err(self.error(format!(
+                "{what} needs {count} numbers, the file ends {} bytes on",
+                self.rest.len()
+            )));
         }
         Ok(())
     }
@@ -232,14 +276,23 @@ mod tests {
         let p = read(DENSE).unwrap();
         assert_eq!(p.q, [2.0, 3.0, -1.0]);
         let w = p.w.to_dense();
-        assert_eq!([w[(2, 2)], w[(0, 0)], w[(1, 2)], w[(1, 0)]], [15.0, 14.0, -2.0, 1.0]);
+        assert_eq!(
+            [w[(2, 2)], w[(0, 0)], w[(1, 2)], w[(1, 0)]],
+            [15.0, 14.0, -2.0, 1.0]
+        );
         let p = read(BLOCKS).unwrap();
         let w = p.w.to_dense();
         // Block (0, 1) holds 5 6 7 8 by columns, normal first.
-        assert_eq!([w[(1, 3)], w[(0, 3)], w[(1, 2)], w[(0, 2)]], [5.0, 6.0, 7.0, 8.0]);
+        assert_eq!(
+            [w[(1, 3)], w[(0, 3)], w[(1, 2)], w[(0, 2)]],
+            [5.0, 6.0, 7.0, 8.0]
+        );
         assert_eq!(p.mu, [0.5, 0.25]);
         let w = read(PRINTED).unwrap().w.to_dense();
-        assert_eq!([w[(1, 1)], w[(0, 1)], w[(0, 0)], w[(1, 0)]], [3.0, 1.0, 4.0, 0.0]);
+        assert_eq!(
+            [w[(1, 1)], w[(0, 1)], w[(0, 0)], w[(1, 0)]],
+            [3.0, 1.0, 4.0, 0.0]
+        );
     }
 
     #[test]
@@ -258,14 +311,19 @@ mod tests {
         fails(&DENSE.replace("14", "1e999"), "line 8: W holds inf");
         fails(&DENSE.replace("14", "x"), "line 8: W holds 'x'");
         fails("7 1 0 7 7", "dimension 7");
-        fails("3 5000000 0 15000000 15000000 15000000 15000000 1", "needs 225000000000000 numbers");
+        fails(
+            "3 5000000 0 15000000 15000000 15000000 15000000 1",
+            "needs 225000000000000 numbers",
+        );
         fails("3 99999999999 0", "outside of 0..=");
         fails("3 -1 0", "outside of 0..=");
         fails(&BLOCKS.replace("0 1 1\n", "0 7 1\n"), "block column 7 of 2");
         fails(&BLOCKS.replace("0 2 3 0 1", "0 9 3 0 1"), "row pointers");
         fails(&PRINTED.replace("1 : 4", "6 : 4"), "row 6 of 2");
         fails(&DENSE.replace("0.1", "-0.1"), "friction coefficient -0.1");
-        let binary = parse(Path::new("b.dat"), &[51, 10, 255, 254, 0]).unwrap_err().to_string();
+        let binary = parse(Path::new("b.dat"), &[51, 10, 255, 254, 0])
+            .unwrap_err()
+            .to_string();
         assert_eq!(binary, "b.dat, line 2: not text");
     }
 }

@@ -14,15 +14,20 @@ use super::{FclibError, LARGEST_SIZE, normal_last, turned, turned_entries};
 pub fn parse(path: &Path, bytes: Vec<u8>) -> Result<ContactProblem, FclibError> {
     let length = bytes.len();
     let options = OpenOptions::default().with_max_read_bytes(8 * LARGEST_SIZE);
-    let file = Hdf5File::from_vec_with_options(bytes, options)
-        .map_err(|e| FclibError::File { path: path.to_owned(), reason: e.to_string() })?;
+    let file = Hdf5File::from_vec_with_options(bytes, options).map_err(|e| FclibError::File {
+        path: path.to_owned(),
+        reason: e.to_string(),
+    })?;
     let source = Source { path, file, length };
     if source.file.group("/fclib_local").is_ok() {
         local(&source)
     } else if source.file.group("/fclib_global").is_ok() {
         global(&source)
     } else {
-        Err(source.error("/", "neither /fclib_local nor /fclib_global is there".to_owned()))
+        Err(source.error(
+            "/",
+            "neither /fclib_local nor /fclib_global is there".to_owned(),
+        ))
     }
 }
 
@@ -58,7 +63,14 @@ fn global(source: &Source<'_>) -> Result<ContactProblem, FclibError> {
         e.1 = normal_last(e.1, dim);
     }
     let cone = Cone::from_dim(dim).map_err(|e| source.problem(e))?;
-    let problem = GlobalProblem { m, h, f, w: turned(&w, dim), mu, cone };
+    let problem = GlobalProblem {
+        m,
+        h,
+        f,
+        w: turned(&w, dim),
+        mu,
+        cone,
+    };
     problem.reduce().map_err(|e| source.problem(e))
 }
 
@@ -70,18 +82,28 @@ struct Source<'a> {
 
 impl Source<'_> {
     fn error(&self, dataset: &str, reason: String) -> FclibError {
-        FclibError::Dataset { path: self.path.to_owned(), dataset: dataset.to_owned(), reason }
+        FclibError::Dataset {
+            path: self.path.to_owned(),
+            dataset: dataset.to_owned(),
+            reason,
+        }
     }
 
     fn problem(&self, source: contact_bipotential::ContactError) -> FclibError {
-        FclibError::Problem { path: self.path.to_owned(), source }
+        FclibError::Problem {
+            path: self.path.to_owned(),
+            source,
+        }
     }
 
     fn expect(&self, dataset: &str, found: usize, expected: usize) -> Result<(), FclibError> {
         if found == expected {
             return Ok(());
         }
-        Err(self.error(dataset, format!("{found} where the rest of the file asks for {expected}")))
+        Err(self.error(
+            dataset,
+            format!("{found} where the rest of the file asks for {expected}"),
+        ))
     }
 
     fn read<T: hdf5_reader::H5Type>(&self, name: &str) -> Result<Vec<T>, FclibError> {
@@ -90,15 +112,25 @@ impl Source<'_> {
         let count = dataset.num_elements().map_err(said)?;
         // Deflate shrinks a thousandfold at best: what is longer than that was never written.
         if count > LARGEST_SIZE as u64 || count > 1032 * self.length as u64 {
-            return Err(self.error(name, format!("{count} numbers in a file of {} bytes", self.length)));
+            return Err(self.error(
+                name,
+                format!("{count} numbers in a file of {} bytes", self.length),
+            ));
         }
-        Ok(dataset.read_array::<T>().map_err(said)?.into_iter().collect())
+        Ok(dataset
+            .read_array::<T>()
+            .map_err(said)?
+            .into_iter()
+            .collect())
     }
 
     fn reals(&self, name: &str) -> Result<Vec<f64>, FclibError> {
         let values = self.read::<f64>(name)?;
         match values.iter().position(|x| !x.is_finite()) {
-            Some(k) => Err(self.error(name, format!("entry {k} is {}: every number must be finite", values[k]))),
+            Some(k) => Err(self.error(
+                name,
+                format!("entry {k} is {}: every number must be finite", values[k]),
+            )),
             None => Ok(values),
         }
     }
@@ -139,11 +171,25 @@ impl Source<'_> {
     /// `nz = -1`: compressed columns, `-2`: compressed rows, otherwise triplets with `i` the row and `p` the column.
     fn matrix(&self, group: &str) -> Result<SparseEntries, FclibError> {
         let at = |name: &str| format!("{group}/{name}");
-        let (rows, columns, nz) = (self.size(&at("m"))?, self.size(&at("n"))?, self.integer(&at("nz"))?);
-        let (p, i, x) = (self.indices(&at("p"))?, self.indices(&at("i"))?, self.reals(&at("x"))?);
+        let (rows, columns, nz) = (
+            self.size(&at("m"))?,
+            self.size(&at("n"))?,
+            self.integer(&at("nz"))?,
+        );
+        let (p, i, x) = (
+            self.indices(&at("p"))?,
+            self.indices(&at("i"))?,
+            self.reals(&at("x"))?,
+        );
         let entries: Vec<(usize, usize, f64)> = match nz {
-            -1 => self.compressed(&at("p"), &p, &i, &x, columns)?.map(|(line, k)| (i[k], line, x[k])).collect(),
-            -2 => self.compressed(&at("p"), &p, &i, &x, rows)?.map(|(line, k)| (line, i[k], x[k])).collect(),
+            -1 => self
+                .compressed(&at("p"), &p, &i, &x, columns)?
+                .map(|(line, k)| (i[k], line, x[k]))
+                .collect(),
+            -2 => self
+                .compressed(&at("p"), &p, &i, &x, rows)?
+                .map(|(line, k)| (line, i[k], x[k]))
+                .collect(),
             0.. => {
                 let count = nz as usize;
                 if count > p.len() || count > i.len() || count > x.len() {
@@ -154,9 +200,19 @@ impl Source<'_> {
             _ => return Err(self.error(&at("nz"), format!("{nz}: -1, -2 or a count is needed"))),
         };
         if let Some(e) = entries.iter().find(|e| e.0 >= rows || e.1 >= columns) {
-            return Err(self.error(&at("i"), format!("entry ({}, {}) lies outside of {rows} x {columns}", e.0, e.1)));
+            return Err(self.error(
+                &at("i"),
+                format!(
+                    "entry ({}, {}) lies outside of {rows} x {columns}",
+                    e.0, e.1
+                ),
+            ));
         }
-        Ok(SparseEntries { rows, columns, entries })
+        Ok(SparseEntries {
+            rows,
+            columns,
+            entries,
+        })
     }
 
     /// Pairs of line and position of every stored entry.
@@ -171,7 +227,10 @@ impl Source<'_> {
         self.expect(name, p.len(), lines + 1)?;
         let stored = i.len().min(x.len());
         if p[0] != 0 || p[lines] > stored || p.windows(2).any(|w| w[0] > w[1]) {
-            return Err(self.error(name, format!("pointers do not rise from 0 to at most the {stored} entries stored")));
+            return Err(self.error(
+                name,
+                format!("pointers do not rise from 0 to at most the {stored} entries stored"),
+            ));
         }
         Ok((0..lines).flat_map(move |line| (p[line]..p[line + 1]).map(move |k| (line, k))))
     }

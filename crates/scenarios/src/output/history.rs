@@ -76,6 +76,12 @@ pub struct Row {
     pub time: f64,
     /// Energies \[J\].
     pub energies: Energies,
+    /// Closed contacts.
+    pub contacts: usize,
+    /// Deepest penetration \[m\].
+    pub penetration: f64,
+    /// Error of the contact law relative to the largest contact force \[-\].
+    pub contact_error: f64,
     /// One per name of the [`Layout`].
     pub forces: Vec<Force>,
     /// Probe values, probe after probe, quantity after quantity, component after component.
@@ -124,6 +130,7 @@ impl Layout {
     pub fn header(&self) -> Vec<String> {
         let mut header = vec!["t".to_owned()];
         header.extend(ENERGY_COLUMNS.map(str::to_owned));
+        header.extend(["contact.closed", "contact.penetration", "contact.error"].map(str::to_owned));
         for name in &self.forces {
             for kind in ["force", "moment"] {
                 header.extend(["x", "y", "z"].map(|axis| format!("{kind}.{name}.{axis}")));
@@ -147,6 +154,7 @@ impl Layout {
     pub fn numbers(&self, row: &Row) -> Vec<f64> {
         let mut numbers = vec![row.time];
         numbers.extend(row.energies.values());
+        numbers.extend([row.contacts as f64, row.penetration, row.contact_error]);
         for i in 0..self.forces.len() {
             let unknown = Force {
                 force: [f64::NAN; 3],

@@ -159,6 +159,54 @@ fn a_slipping_contact_matches_a_scan_of_all_directions() {
 }
 
 #[test]
+fn shrunk_cases_are_solved_or_reported() {
+    let zero = [0.0; 3];
+    let cases: [(Matrix<3>, Vector<3>, f64); 5] = [
+        // The reaction underflows.
+        (
+            [zero, zero, [0.0, 0.0, 3.224520935977679e210]],
+            [0.0, 0.0, -1.8547187506717686e-206],
+            0.0,
+        ),
+        // Indefinite, 250 decades between the entries.
+        (
+            [
+                [-1257.3419868243782, 0.0, 0.0],
+                [0.0, 5.624606992742704e-173, 0.0],
+                [1.5326957495881328e249, 0.0, -3.616458022300388e145],
+            ],
+            [7.133405677725269e153, 0.0, -5.1810319435615666e-135],
+            1.481806286339588e-58,
+        ),
+        // W over its scale overflows, and nothing touches.
+        (
+            [
+                zero,
+                zero,
+                [0.0, 4.192966197290615e168, 1.7215259157381725e-175],
+            ],
+            [0.0, 0.0, 5.041945149682456e-92],
+            0.0,
+        ),
+        // Singular, coupled one way only.
+        (
+            [zero, zero, [5.0980616997966634e290, 0.0, 0.0]],
+            [3.40591653867447e-81, 0.0, -2.1050305133398648e-50],
+            3.701101894506237e-70,
+        ),
+        ([[1.0; 3]; 3], [1e-320, 0.0, -1e-320], 0.3),
+    ];
+    for (w, b, mu) in cases {
+        let s = solve_single(&w, &b, mu);
+        assert!(s.r.iter().all(|x| x.is_finite()), "{s:?}");
+        assert!(
+            !s.solved || single_residual(&w, &b, mu, &s.r) <= 1e-12,
+            "{s:?}"
+        );
+    }
+}
+
+#[test]
 fn plane_and_frictionless_contacts_by_hand() {
     let w = [[2.0, 0.5], [0.5, 1.0]];
     // Slides towards +t: r_t = -mu r_n, u_n = r_n (1 - .5 mu) - 1 = 0.

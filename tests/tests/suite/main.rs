@@ -1,0 +1,20 @@
+//! Tests of the whole chain, from a scene to an audited run.
+//!
+//! Slow ones are ignored: `cargo test --release -p tests -- --ignored` runs them too.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod common;
+
+mod bar;
+mod control;
+mod convergence;
+mod counters;
+mod determinism;
+mod energy;
+mod impact;
+mod patch;
+mod probe;
+mod program;
+mod rigid;
+mod twist;

@@ -1,0 +1,180 @@
+//! Stiff blocks against what is known of rigid ones.
+
+use crate::common::{Run, run, scene_text};
+
+/// A block of one material that can meet the plane z = 0, with room for what differs.
+fn block(
+    size: [f64; 3],
+    cells: [usize; 3],
+    bottom: f64,
+    young: f64,
+    sets: &str,
+    time: &str,
+) -> String {
+    let [x, y, z] = size;
+    format!(
+        r#"(
+    title: "block",
+    materials: {{"m": (law: SaintVenantKirchhoff(E: {young:e}, nu: 0.2), density: 1000.0)}},
+    bodies: {{"block": (mesh: Box(min: (0.0, 0.0, {bottom:e}), max: ({x:e}, {y:e}, {:e}), cells: {cells:?}), material: "m", {sets})}},
+    interfaces: {{"ground": (slave: "block.z_min", master: Plane(point: (0.0, 0.0, 0.0), normal: (0.0, 0.0, 1.0)), mu: 0.3, restitution: 0.0)}},
+    loads: {{"weight": Gravity((0.0, 0.0, 0.0))}},
+    time: ({time}),
+)"#,
+        bottom + z
+    )
+    .replace("cells: [", "cells: (")
+    .replace("])", "))")
+    .replace("], material", "), material")
+}
+
+/// Mean velocity of all matter [m/s].
+fn mean_velocity(run: &Run, state: &nscd::State) -> [f64; 3] {
+    run.momentum(state)
+        .map(|p| p / run.built.model.mass.total())
+}
+
+/// Slides at 1 m/s under g = 10 m/s^2 with mu = .3: stops after 1/3 s and 1/6 m.
+fn sliding(scheme: &str) {
+    const DT: f64 = 0.002;
+    let time = format!("end: 0.5, dt: {DT}, {scheme}");
+    let text = block(
+        [1.0, 1.0, 0.2],
+        [2, 2, 1],
+        0.0,
+        1e9,
+        "velocity: (1.0, 0.0, 0.0)",
+        &time,
+    )
+    .replace("Gravity((0.0, 0.0, 0.0))", "Gravity((0.0, 0.0, -10.0))");
+    let run = run(&scene_text(&text, &[]));
+    let scale = run.totals.initial_energy;
+    run.assert_audited(scale, 1e-9);
+    let velocity: Vec<f64> = run
+        .steps
+        .iter()
+        .map(|s| mean_velocity(&run, &s.state)[0])
+        .collect();
+    for (step, v) in run.steps.iter().zip(&velocity) {
+        assert!(
+            *v > -1e-4,
+            "{scheme}: slides back at {v} m/s at t = {}",
+            step.report.time
+        );
+        let weight = 200.0 * 10.0;
+        let [x, _, n] = step.report.interfaces[0].force;
+        assert!(
+            x.abs() <= 0.3 * n * (1.0 + 1e-8) + 1e-8 * weight,
+            "{scheme}: {x} N against {n} N"
+        );
+    }
+    let stops = run
+        .steps
+        .iter()
+        .zip(&velocity)
+        .find(|(_, v)| v.abs() < 1e-4)
+        .unwrap()
+        .0
+        .report
+        .time;
+    assert!(
+        (stops - 1.0 / 3.0).abs() <= 1.5 * DT,
+        "{scheme}: stops at {stops} s"
+    );
+    let way =
+        run.last().state.u.iter().step_by(3).sum::<f64>() / (run.last().state.u.len() / 3) as f64;
+    assert!(
+        (way - 1.0 / 6.0).abs() <= 1.5 * DT,
+        "{scheme}: slides {way} m"
+    );
+    // A backward Euler step of friction loses (mu g dt)^2/2 a kilogram in the scheme instead of in the contact.
+    let friction = run.totals.energy.friction / scale;
+    let expected = 1.0 - 0.3 * 10.0 * DT;
+    assert!(
+        (friction - expected).abs() < 1e-3,
+        "{scheme}: {friction} of the energy goes into friction"
+    );
+    let lost = friction + run.totals.energy.integration_error() / scale;
+    assert!(
+        (lost - 1.0).abs() < 1e-3,
+        "{scheme}: {lost} of the energy is lost"
+    );
+}
+
+#[test]
+fn sliding_block_stops_where_a_rigid_one_does_velocity_level() {
+    sliding("contact: Velocity, theta: 1.0, xi: 1.0");
+}
+
+#[test]
+fn sliding_block_stops_where_a_rigid_one_does_position_level() {
+    sliding("contact: Position, theta: 1.0, xi: 1.0");
+}
+
+#[test]
+fn one_stiff_element_rebounds_with_the_coefficient_of_restitution() {
+    for e in [0.0, 0.3, 0.7, 1.0] {
+        let time = "end: 0.1, dt: 0.01, contact: Velocity, theta: 1.0, xi: 1.0";
+        let text = block(
+            [1.0; 3],
+            [1; 3],
+            0.045,
+            1e13,
+            "velocity: (0.0, 0.0, -1.0)",
+            time,
+        );
+        let run = run(&scene_text(&text, &[&format!("restitution={e}"), "mu=0"]));
+        let v = mean_velocity(&run, &run.last().state);
+        assert!((v[2] - e).abs() < 1e-6, "e = {e}: rebounds at {} m/s", v[2]);
+        assert!(v[0].abs().max(v[1].abs()) < 1e-9);
+    }
+}
+
+#[test]
+fn free_flight_keeps_momentum_and_energy_and_costs_nothing() {
+    let time = "end: 1.0, dt: 0.01, theta: 0.5, xi: 0.5";
+    let text = block(
+        [1.0; 3],
+        [3; 3],
+        10.0,
+        1e6,
+        "velocity: (1.0, 2.0, -3.0)",
+        time,
+    );
+    let run = run(&scene_text(&text, &[]));
+    let (p, l, energy) = (
+        run.momentum(&run.start),
+        run.angular_momentum(&run.start),
+        run.totals.initial_energy,
+    );
+    for step in &run.steps {
+        let (p1, l1) = (run.momentum(&step.state), run.angular_momentum(&step.state));
+        for c in 0..3 {
+            assert!((p1[c] - p[c]).abs() < 1e-10 * 3000.0);
+            assert!((l1[c] - l[c]).abs() < 1e-10 * 3e4, "{l1:?} {l:?}");
+        }
+        assert!((step.energy() - energy).abs() < 1e-11 * energy);
+    }
+    let c = &run.counters;
+    // The first correction is made of round-off: only a factor tells how large that may be.
+    assert!(c.newton_iterations <= 1 && c.factorizations <= 1, "{c:?}");
+    assert_eq!((c.condensations, c.contact_solves), (0, 0));
+    assert_eq!(c.force_evaluations, c.steps + c.newton_iterations);
+}
+
+#[test]
+fn a_block_falls_like_a_stone() {
+    let time = "end: 1.0, dt: 0.05, theta: 0.5, xi: 0.5";
+    let text = block([1.0; 3], [2; 3], 100.0, 1e6, "", time)
+        .replace("Gravity((0.0, 0.0, 0.0))", "Gravity((0.0, 0.0, -10.0))");
+    let run = run(&scene_text(&text, &[]));
+    let state = &run.last().state;
+    // The trapezoidal rule integrates a constant force exactly.
+    for u in state.u.chunks_exact(3) {
+        assert!(
+            (u[2] + 5.0).abs() < 1e-9 && u[0].abs() + u[1].abs() < 1e-9,
+            "{u:?}"
+        );
+    }
+    assert!((run.totals.energy.load_work / 5e4 - 1.0).abs() < 1e-9);
+}
