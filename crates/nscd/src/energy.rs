@@ -11,12 +11,15 @@ use crate::trial::{StepFrame, Trial};
 impl Stepper<'_> {
     /// Turns a converged iterate into the next state and its report.
     pub(crate) fn accept(
-        &self,
+        &mut self,
         frame: &StepFrame<'_>,
-        trial: Trial,
+        mut trial: Trial,
         check: &Check,
     ) -> (State, StepReport) {
         let model = frame.model;
+        if model.scheme.contact == ContactLevel::Velocity && !trial.map.contacts.is_empty() {
+            self.end_gaps(frame, &mut trial);
+        }
         let support_force: Vec<f64> = (0..trial.u.len())
             .map(|i| {
                 if self.fixed[i] {

@@ -26,6 +26,15 @@ pub enum NscdError {
     },
     /// A quasi-static body that nothing holds.
     #[error(
+        "the body of node {node} has no prescribed motion: without inertia nothing holds it; hold some of its nodes, or \
+         give it inertia"
+    )]
+    Unsupported {
+        /// First node of the body.
+        node: usize,
+    },
+    /// Velocity-level contact without velocities.
+    #[error(
         "velocity-level contact needs inertia; use position-level contact for a quasi-static run"
     )]
     VelocityWithoutInertia,
@@ -120,6 +129,19 @@ pub enum StepFailure {
     /// The compliance of a surface does not fit the mesh.
     #[error(transparent)]
     Surface(#[from] contact_bipotential::GeometryError),
+    /// A slave crosses more than the contact search can see.
+    #[error(
+        "in interface \"{interface}\" slave and master move {travel:e} m against each other in one step, more than the \
+         contact search reaches ({reach:e} m): they could pass through each other; try smaller steps"
+    )]
+    TooFast {
+        /// Name of the interface.
+        interface: String,
+        /// Relative motion [m].
+        travel: f64,
+        /// Reach of the search [m].
+        reach: f64,
+    },
     /// Something became infinite or not a number.
     #[error("a force at node {node} is not finite; try smaller steps")]
     NotFinite {

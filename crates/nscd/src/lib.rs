@@ -22,6 +22,7 @@ mod scheme;
 mod settings;
 mod state;
 mod stepper;
+mod swept;
 mod trial;
 
 pub use error::{NscdError, StepFailure};

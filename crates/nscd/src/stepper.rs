@@ -1,6 +1,6 @@
 //! One time step: predict, correct until balance and contact law agree, accept.
 
-use contact_bipotential::{ContactMap, Detector};
+use contact_bipotential::{Contact, ContactMap, Detector, Master};
 use fe_core::{ElementWorkspace, FeError, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
@@ -11,8 +11,9 @@ use crate::model::Model;
 use crate::monitor::Monitor;
 use crate::ordering::Graph;
 use crate::report::{Clock, Counters, Phase, Phases, StepReport};
-use crate::scheme::ContactLevel;
+use crate::scheme::{ContactLevel, Inertia};
 use crate::state::State;
+use crate::swept::Swept;
 use crate::trial::{StepFrame, Trial, damping_force};
 
 /// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
@@ -48,6 +49,7 @@ impl<'m> Stepper<'m> {
             offsets: &offsets,
             neighbours: &neighbours,
         };
+        refuse_unsupported(model, &fixed)?;
         let bodies = (0..model.solid.bodies().len())
             .map(|b| BodySystem::new(&model.solid, graph, b, &fixed, &candidate))
             .collect::<Result<_, _>>()?;
@@ -132,6 +134,7 @@ impl<'m> Stepper<'m> {
         loop {
             let check = monitor.check(self, &frame, &trial)?;
             if check.converged {
+                self.refuse_tunnelling(&frame, &trial)?;
                 return Ok(self.accept(&frame, trial, &check));
             }
             if check.iteration == self.model.settings.newton_iterations {
@@ -209,15 +212,55 @@ impl<'m> Stepper<'m> {
             .collect();
         self.model.prescribe(frame.end(), &mut ahead);
         let map = self.detect(frame, &ahead);
-        let size = self
-            .model
-            .solid
-            .mesh()
-            .points
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |m, x| m.max(x.abs()));
-        filtered(&map, |_, c| c.gap <= 1e-12 * size)
+        // A pressed contact stays in the problem: whether it opens is for the law to say, not for the
+        // round-off of a predicted gap.
+        let touching = 1e-9 * self.reach();
+        let now = &frame.now.contacts;
+        let pressed = |c: &Contact| {
+            let key = (c.interface, c.slave_index);
+            let found = now.binary_search_by_key(&key, |k| (k.interface, k.slave_index));
+            found.is_ok_and(|k| now[k].force[2] > 0.0)
+        };
+        filtered(&map, |_, c| c.gap <= touching || pressed(c))
+    }
+
+    /// Largest distance at which contacts are looked for [m].
+    fn reach(&self) -> f64 {
+        let interfaces = self.model.interfaces.iter();
+        interfaces.map(|i| i.search_distance).fold(0.0, f64::max)
+    }
+
+    /// Gaps at the end of a step at the velocity level, where the contacts keep their predicted frames.
+    pub(crate) fn end_gaps(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) {
+        let end = self.detect(frame, &trial.u);
+        for c in &mut trial.map.contacts {
+            let key = (c.interface, c.slave_index);
+            let found = end.contacts.binary_search_by_key(&key, |e| (e.interface, e.slave_index));
+            if let Ok(k) = found {
+                c.gap = end.contacts[k].gap;
+            }
+        }
+    }
+
+    /// A slave that crosses more than the reach of the search in one step could pass through its
+    /// master unseen: such a step is refused when the two come near each other on the way.
+    fn refuse_tunnelling(&self, frame: &StepFrame<'_>, trial: &Trial) -> Result<(), StepFailure> {
+        let start = self.model.positions(&frame.now.u);
+        let end = self.model.positions(&trial.u);
+        let dim = self.model.solid.dim();
+        for interface in &self.model.interfaces {
+            let Master::Surface(master) = &interface.master else {
+                continue;
+            };
+            let swept = |nodes: &[u32]| Swept::of(nodes, dim, &start, &end);
+            let (slave, master) = (swept(&interface.slave), swept(&master.nodes));
+            let (travel, reach) = (slave.fastest_against(&master), interface.search_distance);
+            if travel > reach && slave.meets(&master, reach) {
+                let interface = interface.name.clone();
+                return Err(StepFailure::TooFast { interface, travel, reach });
+            }
+        }
+        Ok(())
     }
 
     fn detect(&mut self, frame: &StepFrame<'_>, u: &[f64]) -> ContactMap {
@@ -420,6 +463,21 @@ impl<'m> Stepper<'m> {
 
     fn book(&mut self, phase: Phase, start: f64) {
         self.phases[phase as usize] += self.clock.seconds() - start;
+    }
+}
+
+/// Without mass, a body that nothing holds has no equilibrium that a matrix could find: contact
+/// forces enter after the factorization.
+fn refuse_unsupported(model: &Model, fixed: &[bool]) -> Result<(), NscdError> {
+    if model.scheme.inertia == Inertia::Dynamic {
+        return Ok(());
+    }
+    let dim = model.solid.dim();
+    let free = |n: u32| (0..dim).all(|c| !fixed[dim * n as usize + c]);
+    let mut bodies = model.solid.bodies().iter();
+    match bodies.find(|body| body.iter().all(|&n| free(n))) {
+        Some(body) => Err(NscdError::Unsupported { node: body[0] as usize }),
+        None => Ok(()),
     }
 }
 

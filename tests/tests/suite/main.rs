@@ -14,7 +14,6 @@ mod determinism;
 mod energy;
 mod impact;
 mod patch;
-mod probe;
 mod program;
 mod rigid;
 mod twist;

@@ -1,7 +1,11 @@
-//! The program from end to end, through a folder of its own.
+//! From a scene to the files of its results.
 
 use std::path::PathBuf;
-use std::process::{Command, Output};
+
+use scenarios::output::{Status, Summary};
+use scenarios::spec::LoadedScene;
+
+use crate::common::{scene, scene_text};
 
 /// An empty folder that is removed in the end.
 struct Folder(PathBuf);
@@ -21,29 +25,10 @@ impl Drop for Folder {
     }
 }
 
-/// Cargo builds no binaries of other packages for a test, so it is asked to.
-fn setae(arguments: &[&str], folder: &Folder) -> Output {
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml");
-    let mut command = Command::new(env!("CARGO"));
-    command.args([
-        "run",
-        "--quiet",
-        "--manifest-path",
-        manifest,
-        "-p",
-        "scenarios",
-        "--bin",
-        "setae",
-    ]);
-    if !cfg!(debug_assertions) {
-        command.arg("--release");
-    }
-    command
-        .arg("--")
-        .args(arguments)
-        .current_dir(&folder.0)
-        .output()
-        .unwrap()
+/// A run into the folder `out` as the program makes it. (The program itself, its messages and exit codes are tested
+/// where it is built, in the package `scenarios`.)
+fn run_into(loaded: &LoadedScene, folder: &Folder) -> Summary {
+    scenarios::run::run(loaded, &folder.0.join("out"), &mut |_| ()).unwrap()
 }
 
 fn summary(folder: &Folder) -> serde_json::Value {
@@ -54,27 +39,10 @@ fn summary(folder: &Folder) -> serde_json::Value {
 #[test]
 fn impact_runs_to_its_end_and_writes_what_it_computed() {
     let folder = Folder::new("impact");
-    let out = setae(
-        &[
-            "run",
-            "impact",
-            "--out",
-            "out",
-            "--set",
-            "mu=0.5",
-            "--threads",
-            "2",
-            "--quiet",
-        ],
-        &folder,
-    );
     assert_eq!(
-        out.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
+        run_into(&scene("impact", &["mu=0.5"]), &folder).status,
+        Status::Completed
     );
-    assert!(out.stdout.is_empty() && out.stderr.is_empty());
     let summary = summary(&folder);
     assert_eq!(summary["steps"], 100);
     assert_eq!(summary["rejected_steps"], 0);
@@ -86,7 +54,7 @@ fn impact_runs_to_its_end_and_writes_what_it_computed() {
     let rows: Vec<Vec<f64>> = lines
         .map(|l| l.split(',').map(|x| x.parse().unwrap()).collect())
         .collect();
-    assert_eq!(rows.len(), 101);
+    assert_eq!(rows.len(), 100);
     let column = |name: &str| {
         names
             .iter()
@@ -103,7 +71,7 @@ fn impact_runs_to_its_end_and_writes_what_it_computed() {
     ];
     let (lost, work, time) = (lost.map(column), column("work.load"), column("t"));
     for (k, row) in rows.iter().enumerate() {
-        assert!((row[time] - 0.01 * k as f64).abs() < 1e-9);
+        assert!((row[time] - 0.01 * (k + 1) as f64).abs() < 1e-9);
         let sum: f64 = stored.iter().chain(&lost).map(|c| row[*c]).sum();
         assert!(
             (sum - row[work] - 162.5).abs() < 1e-8 * 162.5,
@@ -130,13 +98,9 @@ fn a_run_that_stops_says_why_and_keeps_its_results() {
     },
     time: (end: 2.0, dt: 0.5, inertia: QuasiStatic, min_dt: Some(0.05)),
 )"#;
-    std::fs::write(folder.0.join("crushed.ron"), scene).unwrap();
-    let out = setae(&["run", "crushed.ron", "--out", "out", "--quiet"], &folder);
     assert_eq!(
-        out.status.code(),
-        Some(1),
-        "{}",
-        String::from_utf8_lossy(&out.stderr)
+        run_into(&scene_text(scene, &[]), &folder).status,
+        Status::Stopped
     );
     let summary = summary(&folder);
     let reason = summary["reason"].as_str().unwrap();
@@ -158,21 +122,4 @@ fn a_run_that_stops_says_why_and_keeps_its_results() {
         .parse()
         .unwrap();
     assert_eq!(last, reached);
-}
-
-#[test]
-fn bad_input_is_refused_with_its_place_and_leaves_no_folder() {
-    let folder = Folder::new("refused");
-    for (set, word) in [
-        ("dt=0", "time.dt"),
-        ("mu=-0.1", "mu"),
-        ("density=-1", "density"),
-        ("a1=-1e9", "a1"),
-    ] {
-        let out = setae(&["run", "impact", "--out", "out", "--set", set], &folder);
-        let error = String::from_utf8_lossy(&out.stderr).into_owned();
-        assert_eq!(out.status.code(), Some(2), "{set}: {error}");
-        assert!(error.contains(word), "{set}: {error}");
-        assert!(!folder.0.join("out").exists(), "{set}");
-    }
 }

@@ -49,6 +49,9 @@ pub struct Folder {
     path: PathBuf,
 }
 
+/// How the names of the pictures begin.
+const PICTURES: [&str; 5] = ["energy", "deformed", "force_", "moment_", "probe_"];
+
 impl Folder {
     /// Makes the folder with its parents and writes a file on trial, before anything is computed. Results of an
     /// earlier run are removed, so that a run that is broken off cannot be taken for the earlier one.
@@ -71,11 +74,19 @@ impl Folder {
         let trial = self.file(".setae-trial");
         fs::write(&trial, b"trial")?;
         fs::remove_file(&trial)?;
-        let svg = |name: &str| name.ends_with(".svg");
+        if self.file("summary.json").is_dir() || self.file("history.csv").is_dir() {
+            return Err(io::Error::other("summary.json or history.csv there is a folder"));
+        }
+        // Only beside an earlier history are pictures ours, and only those with our names.
+        let drawn = self.file("history.csv").is_file();
+        let svg = |name: &str| drawn && name.ends_with(".svg") && PICTURES.iter().any(|p| name.starts_with(p));
         self.remove(&self.path, |name| {
             matches!(name, "summary.json" | "history.csv" | "fields.pvd") || svg(name)
         })?;
         let fields = self.file("fields");
+        if fields.exists() && !fields.is_dir() {
+            return Err(io::Error::other("fields there is no folder"));
+        }
         if fields.is_dir() {
             self.remove(&fields, |name| {
                 name.starts_with("step_") && name.ends_with(".vtu")

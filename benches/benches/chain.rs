@@ -1,0 +1,159 @@
+//! Times of the parts of a step: `cargo bench -p benches`.
+
+#![allow(clippy::unwrap_used, reason = "a bench may panic")]
+#![allow(
+    missing_docs,
+    reason = "the macros of criterion write undocumented functions"
+)]
+
+use std::hint::black_box;
+use std::time::Duration;
+
+use contact_bipotential::conformance::half_space;
+use contact_bipotential::solve::single::SingleContact;
+use contact_bipotential::{Method, SolveSettings, solve};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use fe_core::block::tangent_len;
+use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
+use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, ThreeE};
+use nscd::{NoClock, Stepper};
+
+fn mesh() -> (Mesh, Vec<f64>) {
+    let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [8; 3])
+        .generate("box")
+        .unwrap();
+    let wave = |x: &[f64; 3]| {
+        [
+            0.05 * (x[1] * 3.0).sin(),
+            0.04 * (x[2] * 2.0).cos(),
+            0.03 * x[0] * x[1],
+        ]
+    };
+    let u = mesh.points.iter().flat_map(wave).collect();
+    (mesh, u)
+}
+
+fn elastic() -> ElasticConstants {
+    ElasticConstants::from_shear_lame(1.0, 1.0).unwrap()
+}
+
+fn kernel<M: Material>(c: &mut Criterion, name: &str, material: M) {
+    let (mesh, u) = mesh();
+    let block = solid_block(&mesh, 0, material, 1.0).unwrap();
+    let (count, nodes) = (block.element_count(), block.nodes_per_element());
+    let mut forces = vec![0.0; 3 * nodes * count];
+    let mut energies = vec![0.0; count];
+    let mut tangents = vec![0.0; tangent_len(3, nodes) * count];
+    let mut group = c.benchmark_group("hex8");
+    group.throughput(Throughput::Elements(count as u64));
+    group.bench_function(BenchmarkId::new("force", name), |b| {
+        b.iter(|| {
+            block
+                .internal_force(black_box(&u), &mut forces, &mut energies)
+                .unwrap()
+        });
+    });
+    group.bench_function(BenchmarkId::new("tangent", name), |b| {
+        b.iter(|| {
+            block
+                .tangent(black_box(&u), &mut forces, &mut energies, &mut tangents)
+                .unwrap()
+        });
+    });
+}
+
+fn kernels(c: &mut Criterion) {
+    kernel(
+        c,
+        "Saint Venant-Kirchhoff",
+        SaintVenantKirchhoff::new(elastic()).unwrap(),
+    );
+    kernel(
+        c,
+        "3e",
+        ThreeE::new(elastic(), [0.01, 0.01, 0.0, 0.1, 0.01]).unwrap(),
+    );
+    kernel(c, "Blatz-Ko", BlatzKo::new(1.0).unwrap());
+    kernel(c, "neo-Hookean", NeoHookean::new(elastic()).unwrap());
+}
+
+fn assembly(c: &mut Criterion) {
+    let (mesh, u) = mesh();
+    let block = solid_block(&mesh, 0, NeoHookean::new(elastic()).unwrap(), 1.0).unwrap();
+    let solid = Solid::new(mesh, vec![block]).unwrap();
+    let n = solid.dof_count();
+    let equations: Vec<u32> = (0..n as u32).collect();
+    let pattern = SymmetricPattern::new(&solid, &equations, n).unwrap();
+    let (mut work, mut f) = (solid.workspace(), vec![0.0; n]);
+    solid.tangent(&u, &mut work, &mut f).unwrap();
+    let mut values = vec![0.0; pattern.nonzeros()];
+    c.bench_function("assembly/gather tangent", |b| {
+        b.iter(|| pattern.gather_tangent(black_box(&work), 1.0, &mut values));
+    });
+    c.bench_function("assembly/internal force", |b| {
+        b.iter(|| {
+            solid
+                .internal_force(black_box(&u), &mut work, &mut f)
+                .unwrap()
+        });
+    });
+}
+
+fn single(c: &mut Criterion) {
+    let contact = SingleContact::<3>::new(&[[2.0, 0.1, 0.2], [0.1, 1.5, -0.1], [0.2, -0.1, 1.0]]);
+    for (status, q) in [
+        ("separate", [0.3, 0.1, 0.5]),
+        ("stick", [0.01, 0.02, -1.0]),
+        ("slip", [2.0, -1.0, -0.5]),
+    ] {
+        c.bench_function(&format!("single contact/{status}"), |b| {
+            b.iter(|| contact.solve(black_box(&q), 0.4))
+        });
+    }
+}
+
+fn contact(c: &mut Criterion) {
+    let mut group = c.benchmark_group("contacts");
+    group
+        .sample_size(10)
+        .measurement_time(Duration::from_secs(3));
+    for side in [3, 10, 20] {
+        let problem = half_space(side, 0.4, 1.0, 0.3);
+        let runs = [
+            ("sweep", Method::GaussSeidel, 1),
+            ("solve", Method::Auto, 20_000),
+        ];
+        for (name, method, max_iterations) in runs {
+            let settings = SolveSettings {
+                method,
+                max_iterations,
+                ..SolveSettings::default()
+            };
+            group.bench_function(BenchmarkId::new(name, problem.contacts()), |b| {
+                b.iter(|| {
+                    let mut r = Vec::new();
+                    solve(black_box(&problem), &mut r, &settings)
+                });
+            });
+        }
+    }
+}
+
+/// A step of `impact` in full contact, with the factors that the steps before have left.
+fn step(c: &mut Criterion) {
+    let loaded = scenarios::catalog::load("impact", &[]).unwrap();
+    let built = scenarios::build::build(&loaded).unwrap();
+    let mut stepper = Stepper::new(&built.model, Box::new(NoClock)).unwrap();
+    let mut state = stepper.initial_state(built.velocity.clone()).unwrap();
+    for _ in 0..35 {
+        state = stepper.step(&state, 0.01).unwrap().0;
+    }
+    let mut group = c.benchmark_group("step");
+    group.sample_size(20);
+    group.bench_function("impact", |b| {
+        b.iter(|| stepper.step(black_box(&state), 0.01).unwrap())
+    });
+}
+
+criterion_group!(benches, kernels, assembly, single, contact, step);
+criterion_main!(benches);
