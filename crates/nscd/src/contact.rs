@@ -13,6 +13,7 @@ use crate::model::Model;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
 use crate::state::State;
+use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};
 
 /// What the contact solve remembers from iteration to iteration and from step to step. Nothing
@@ -27,6 +28,8 @@ pub(crate) struct ContactMemory {
     pub(crate) cone: usize,
     solver: SequenceSolver,
     kept: Option<KeptOperator>,
+    /// The kept problem was solved in the present step.
+    solved: bool,
     /// Factorizations of the bodies that the present contact problem stands on.
     epochs: Vec<u64>,
 }
@@ -47,6 +50,7 @@ impl ContactMemory {
             cone,
             solver: SequenceSolver::default(),
             kept: None,
+            solved: false,
             epochs: Vec::new(),
         }
     }
@@ -67,6 +71,7 @@ impl ContactMemory {
     pub(crate) fn restore(&mut self, now: &State) {
         let cone = self.cone;
         self.clear();
+        self.solved = false;
         for c in &now.contacts {
             for (i, &axis) in local_axes(cone).iter().enumerate() {
                 self.forces[c.interface][cone * c.slave_index + i] = c.force[axis];
@@ -363,7 +368,7 @@ impl LinearisedContact {
         let mut force = vec![0.0; model.dof_count()];
         self.map.apply_transpose(&self.r, &mut force);
         memory.store(&self.map, &self.r);
-        memory.keep_operator(self.map, self.problem.w);
+        memory.keep_operator(self.map, self.problem);
         Ok(force)
     }
 }
@@ -376,6 +381,8 @@ struct KeptOperator {
     /// Factorizations of the bodies at the time.
     epochs: Vec<u64>,
     w: Mat<f64>,
+    q: Vec<f64>,
+    mu: Vec<f64>,
 }
 
 impl ContactMemory {
@@ -395,13 +402,16 @@ impl ContactMemory {
         w
     }
 
-    fn keep_operator(&mut self, map: ContactMap, w: Delassus) {
-        if let Delassus::Dense(w) = w {
+    fn keep_operator(&mut self, map: ContactMap, problem: ContactProblem) {
+        if let Delassus::Dense(w) = problem.w {
             self.kept = Some(KeptOperator {
                 contacts: map.contacts,
                 epochs: self.epochs.clone(),
                 w,
+                q: problem.q,
+                mu: problem.mu,
             });
+            self.solved = true;
         }
     }
 
@@ -414,6 +424,19 @@ impl ContactMemory {
                 self.stiffness[c.interface][c.slave_index] = 1.0 / trace;
             }
         }
+    }
+}
+
+impl Stepper<'_> {
+    /// The contact problem of the last iteration that had one in the last step [m, N], a copy; `None` where nothing touched.
+    pub fn last_contact_problem(&self) -> Option<ContactProblem> {
+        let kept = self.memory.kept.as_ref().filter(|_| self.memory.solved)?;
+        Some(ContactProblem {
+            w: Delassus::Dense(kept.w.clone()),
+            q: kept.q.clone(),
+            mu: kept.mu.clone(),
+            cone: cone_of(self.model()),
+        })
     }
 }
 

@@ -96,8 +96,9 @@ pub fn march(
                     reason,
                 };
                 observer.rejected(&rejection);
-                control.rejected(state.time, dt, &rejection.reason)?;
+                let reason = rejection.reason.clone();
                 totals.rejections.push(rejection);
+                control.rejected(state.time, dt, &reason)?;
             }
         }
     }
@@ -149,7 +150,10 @@ impl Control {
         // Sums of steps reach the nominal grid and the targets up to round-off: put them there.
         let grid = (state.time / self.span.dt).round() * self.span.dt;
         let places = self.targets.iter().copied().chain([grid]);
-        if let Some(exact) = places.into_iter().find(|t| (t - state.time).abs() < 1e-9 * self.span.dt) {
+        if let Some(exact) = places
+            .into_iter()
+            .find(|t| (t - state.time).abs() < 1e-9 * self.span.dt)
+        {
             state.time = exact;
         }
         self.successes += 1;

@@ -10,6 +10,11 @@ use crate::trial::{StepFrame, Trial};
 /// Round-off of a sum of the size of its terms, with room for the number of terms.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 
+/// Iterations without progress after which a residual counts as round-off, and how far above the
+/// allowed one it may lie then.
+const STAGNATION: usize = 4;
+const CLOSE: f64 = 100.0;
+
 /// Balance and contact law at an iterate.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Check {
@@ -19,8 +24,7 @@ pub(crate) struct Check {
     pub(crate) residual: f64,
     node: usize,
     allowed: f64,
-    /// Largest force in play [N].
-    scale: f64,
+    newton_tolerance: f64,
     law: LawError,
     /// Error of the contact law relative to the largest contact force.
     pub(crate) contact_error: f64,
@@ -30,10 +34,11 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    /// Residual relative to the largest force in play.
+    /// Residual relative to the largest force in play, or to the round-off that stands for it.
     pub(crate) fn relative_residual(&self) -> f64 {
-        if self.scale > 0.0 {
-            self.residual / self.scale
+        let scale = self.allowed / self.newton_tolerance;
+        if scale > 0.0 {
+            self.residual / scale
         } else {
             0.0
         }
@@ -74,6 +79,9 @@ pub(crate) struct Monitor {
     iteration_cost: f64,
     extent: f64,
     element_size: f64,
+    largest_mass: f64,
+    /// Largest residual of the last iterations [N].
+    recent: [f64; STAGNATION],
 }
 
 impl Monitor {
@@ -95,6 +103,8 @@ impl Monitor {
             iteration_cost: elements as f64 * 1e-6 + solves + contact_cost(contact_rows),
             extent,
             element_size: largest_element(model),
+            largest_mass: largest(&model.mass.row_sums()),
+            recent: [f64::MAX; STAGNATION],
         }
     }
 
@@ -106,11 +116,18 @@ impl Monitor {
         trial: &Trial,
     ) -> Result<Check, StepFailure> {
         let settings = &frame.model.settings;
-        let stiffness = stepper
+        let factored = stepper
             .bodies
             .iter()
             .map(BodySystem::largest_diagonal)
             .fold(0.0, f64::max);
+        // Before the first factorization the mass alone gives the scale; without mass any scale tells
+        // a penetration from round-off.
+        let inertia = frame.weights.mass * self.largest_mass;
+        let stiffness = match factored.max(inertia) {
+            0.0 => 1.0,
+            known => known,
+        };
         let travel = largest(&trial.u) + frame.dt * largest(&trial.v);
         let scale = [
             &trial.internal_force,
@@ -140,12 +157,12 @@ impl Monitor {
         let check = Check {
             iteration: self.iteration,
             converged: trial.pending.is_none()
-                && residual <= self.allowed
+                && (residual <= self.allowed || self.is_round_off(residual))
                 && contact_error <= settings.contact_tolerance,
             residual,
             node,
             allowed: self.allowed,
-            scale,
+            newton_tolerance: settings.newton_tolerance,
             law,
             contact_error,
             contact_tolerance: settings.contact_tolerance,
@@ -153,6 +170,15 @@ impl Monitor {
         };
         self.iteration += 1;
         Ok(check)
+    }
+
+    /// Whether the residual has stopped falling so close above the allowed one that it can only be
+    /// round-off, which strongly deformed elements have more of than the estimate knows.
+    fn is_round_off(&mut self, residual: f64) -> bool {
+        self.recent.rotate_left(1);
+        let oldest = std::mem::replace(&mut self.recent[STAGNATION - 1], residual);
+        let fallen = self.recent.iter().any(|r| *r < 0.5 * oldest);
+        self.iteration >= 2 * STAGNATION && !fallen && residual <= CLOSE * self.allowed
     }
 
     /// Largest residual and its node; the contraction of every body goes to the body.

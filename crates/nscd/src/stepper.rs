@@ -235,7 +235,9 @@ impl<'m> Stepper<'m> {
         let end = self.detect(frame, &trial.u);
         for c in &mut trial.map.contacts {
             let key = (c.interface, c.slave_index);
-            let found = end.contacts.binary_search_by_key(&key, |e| (e.interface, e.slave_index));
+            let found = end
+                .contacts
+                .binary_search_by_key(&key, |e| (e.interface, e.slave_index));
             if let Ok(k) = found {
                 c.gap = end.contacts[k].gap;
             }
@@ -257,7 +259,11 @@ impl<'m> Stepper<'m> {
             let (travel, reach) = (slave.fastest_against(&master), interface.search_distance);
             if travel > reach && slave.meets(&master, reach) {
                 let interface = interface.name.clone();
-                return Err(StepFailure::TooFast { interface, travel, reach });
+                return Err(StepFailure::TooFast {
+                    interface,
+                    travel,
+                    reach,
+                });
             }
         }
         Ok(())
@@ -476,7 +482,9 @@ fn refuse_unsupported(model: &Model, fixed: &[bool]) -> Result<(), NscdError> {
     let free = |n: u32| (0..dim).all(|c| !fixed[dim * n as usize + c]);
     let mut bodies = model.solid.bodies().iter();
     match bodies.find(|body| body.iter().all(|&n| free(n))) {
-        Some(body) => Err(NscdError::Unsupported { node: body[0] as usize }),
+        Some(body) => Err(NscdError::Unsupported {
+            node: body[0] as usize,
+        }),
         None => Ok(()),
     }
 }

@@ -12,7 +12,12 @@ pub(crate) struct Swept {
 impl Swept {
     pub(crate) fn of(nodes: &[u32], dim: usize, start: &[f64], end: &[f64]) -> Self {
         let (high, low) = ([f64::MIN; 3], [f64::MAX; 3]);
-        let mut swept = Self { low, high, slowest: low, fastest: high };
+        let mut swept = Self {
+            low,
+            high,
+            slowest: low,
+            fastest: high,
+        };
         for i in 0..dim {
             for &node in nodes {
                 let (a, b) = (start[dim * node as usize + i], end[dim * node as usize + i]);
@@ -31,13 +36,16 @@ impl Swept {
 
     /// Largest component of the displacement of any node here relative to any node there.
     pub(crate) fn fastest_against(&self, other: &Self) -> f64 {
-        let along = |i: usize| (self.fastest[i] - other.slowest[i]).max(other.fastest[i] - self.slowest[i]);
+        let along =
+            |i: usize| (self.fastest[i] - other.slowest[i]).max(other.fastest[i] - self.slowest[i]);
         self.axes().map(along).fold(0.0, f64::max)
     }
 
     /// Whether the boxes come closer than `distance`.
     pub(crate) fn meets(&self, other: &Self, distance: f64) -> bool {
-        let apart = |i: usize| self.low[i] > other.high[i] + distance || other.low[i] > self.high[i] + distance;
+        let apart = |i: usize| {
+            self.low[i] > other.high[i] + distance || other.low[i] > self.high[i] + distance
+        };
         !self.axes().any(apart)
     }
 }
@@ -50,14 +58,23 @@ mod tests {
     fn nodes_that_pass_each_other_meet_and_nodes_side_by_side_do_not_race() {
         let start = [0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
         let through = [0.0, 0.0, -1.0, 0.0, 0.0, 0.0];
-        let (a, b) = (Swept::of(&[0], 3, &start, &through), Swept::of(&[1], 3, &start, &through));
+        let (a, b) = (
+            Swept::of(&[0], 3, &start, &through),
+            Swept::of(&[1], 3, &start, &through),
+        );
         assert!(a.meets(&b, 0.0));
         assert_eq!(a.fastest_against(&b), 2.0);
         let together = [0.0, 0.0, -1.0, 0.0, 0.0, -2.0];
-        let (a, b) = (Swept::of(&[0], 3, &start, &together), Swept::of(&[1], 3, &start, &together));
+        let (a, b) = (
+            Swept::of(&[0], 3, &start, &together),
+            Swept::of(&[1], 3, &start, &together),
+        );
         assert_eq!(a.fastest_against(&b), 0.0);
         let aside = [5.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-        let (a, b) = (Swept::of(&[0], 3, &aside, &aside), Swept::of(&[1], 3, &aside, &aside));
+        let (a, b) = (
+            Swept::of(&[0], 3, &aside, &aside),
+            Swept::of(&[1], 3, &aside, &aside),
+        );
         assert!(!a.meets(&b, 1.0));
     }
 }

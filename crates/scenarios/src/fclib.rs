@@ -1,10 +1,11 @@
 //! Frictional contact problems written by other codes: Siconos `.dat` and FCLib `.hdf5`.
 //!
-//! Both keep the normal component first; problems here have it last, and the readers turn them. What a file claims about
+//! Both keep the normal component first; problems here have it last, and the readers turn them ([`write`] turns them back). What a file claims about
 //! its sizes is never believed further than its length allows.
 
 pub mod dat;
 pub mod hdf5;
+pub mod write;
 
 use std::path::{Path, PathBuf};
 

@@ -6,6 +6,7 @@
 pub mod build;
 pub mod catalog;
 pub mod clock;
+pub mod fclib;
 pub mod fields;
 pub mod output;
 pub mod progress;

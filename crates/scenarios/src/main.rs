@@ -1,5 +1,7 @@
 //! `setae`: soft bodies in contact, from a scene to audited results.
 
+mod contact_command;
+
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -62,10 +64,18 @@ enum Command {
         /// Number of threads; all cores without it. The results do not depend on it.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
+        /// Also write the contact problem of the N-th step as FCLib, contact_step_N.hdf5, for `setae contact` and others.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+        dump_contact: Option<u32>,
         /// Print nothing but errors.
         #[arg(long)]
         quiet: bool,
     },
+    /// Solve contact problems of any code.
+    #[command(
+        after_help = "Exit code: 0 all are solved, 1 some are not, 2 some cannot be read."
+    )]
+    Contact(contact_command::Arguments),
 }
 
 /// Unknowns up to which a check builds the whole model too, which takes a second.
@@ -88,11 +98,14 @@ fn main() -> ExitCode {
             out,
             sets,
             threads,
+            dump_contact,
             quiet,
         } => {
             let folder = out.unwrap_or_else(|| catalog::default_folder(&scene));
-            run(&scene, folder, &sets, threads, quiet)
+            let dump = dump_contact.map(|n| n as usize);
+            run(&scene, folder, &sets, threads, dump, quiet)
         }
+        Command::Contact(arguments) => Ok(contact_command::run(&arguments)),
     };
     done.unwrap_or_else(|failure| {
         eprint!("{}", failure.text());
@@ -213,6 +226,7 @@ fn run(
     folder: PathBuf,
     sets: &[Override],
     threads: Option<u16>,
+    dump: Option<usize>,
     quiet: bool,
 ) -> Result<ExitCode, Failure> {
     let loaded = catalog::load(scene, sets)?;
@@ -223,7 +237,8 @@ fn run(
         pool.map_err(|error| Failure::Other(format!("cannot start {threads} threads: {error}")))?;
     }
     let bar = progress_bar(quiet);
-    let outcome = scenarios::run::run(&loaded, &folder, &mut |progress| advance(&bar, progress));
+    let watch = &mut |progress: &Progress| advance(&bar, progress);
+    let outcome = scenarios::run::run_and_dump(&loaded, &folder, dump, watch);
     bar.finish_and_clear();
     let summary = outcome.map_err(|error| match error {
         RunError::Scene(error) => Failure::Scene(error),

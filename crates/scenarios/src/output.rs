@@ -6,6 +6,7 @@
 //! | `history.csv` | one row an accepted step, on disk as soon as the step is accepted ([`Row`]) |
 //! | `fields.pvd`, `fields/*.vtu` | fields for ParaView and pyvista ([`Frame`]), reference positions and displacement |
 //! | `*.svg` | the plots that the scene asks for |
+//! | `contact_step_N.hdf5` | the contact problem of step N as FCLib, with `--dump-contact N` |
 
 mod csv;
 mod folder;

@@ -100,6 +100,9 @@ pub fn closing_table(summary: &Summary) -> String {
             )
         }
     };
+    for warning in &summary.warnings {
+        text += &format!("warning: {warning}\n");
+    }
     let columns = [counters(summary), phases(summary), energies(summary)];
     let rows = columns.iter().map(Vec::len).max().unwrap_or(0);
     text.push('\n');

@@ -33,6 +33,20 @@ pub fn run(
     folder: &Path,
     watch: &mut dyn FnMut(&Progress),
 ) -> Result<Summary, RunError> {
+    run_and_dump(loaded, folder, None, watch)
+}
+
+/// As [`run`]; the contact problem of the last iteration of accepted step `dump`, from 1, is written as FCLib. Where that
+/// step has none, a warning in the summary says so.
+///
+/// # Errors
+/// [`RunError`].
+pub fn run_and_dump(
+    loaded: &LoadedScene,
+    folder: &Path,
+    dump: Option<usize>,
+    watch: &mut dyn FnMut(&Progress),
+) -> Result<Summary, RunError> {
     let stopwatch = Stopwatch::start();
     let built = build(loaded).map_err(Box::new)?;
     let refuse = |e: NscdError| Box::new(loaded.refuse("time", e.to_string()));
@@ -46,6 +60,7 @@ pub fn run(
         built: &built,
         results,
         watch,
+        dump,
         failure: None,
     };
     recorder.start(&state)?;
@@ -61,7 +76,11 @@ pub fn run(
         return Err(failure.into());
     }
     recorder.frame(&state, stepper.counters.steps as usize, true)?;
-    let summary = summarise(&stepper, &state, &totals, &stopwatch, end.err());
+    let mut summary = summarise(&stepper, &state, &totals, &stopwatch, end.err());
+    if let Some(step) = recorder.dump {
+        let reason = format!("no contact problem to dump: step {step} was not reached, or nothing touches in it");
+        summary.warnings.push(reason);
+    }
     recorder.results.finish(&summary)?;
     Ok(summary)
 }
@@ -78,6 +97,8 @@ struct Recorder<'a> {
     built: &'a Built,
     results: Results,
     watch: &'a mut dyn FnMut(&Progress),
+    /// Step whose contact problem is still to be written.
+    dump: Option<usize>,
     /// An output error ends the march; it is kept here to be told as it is.
     failure: Option<OutputError>,
 }
@@ -156,7 +177,14 @@ impl Recorder<'_> {
     ) -> Result<(), OutputError> {
         let row = self.row(state, report, totals);
         self.results.record(&row)?;
-        self.frame(state, stepper.counters.steps as usize, false)
+        let step = stepper.counters.steps as usize;
+        if self.dump == Some(step)
+            && let Some(problem) = stepper.last_contact_problem()
+        {
+            self.results.contact_problem(step, &problem)?;
+            self.dump = None;
+        }
+        self.frame(state, step, false)
     }
 }
 
@@ -200,6 +228,24 @@ fn energies(state: &State, totals: &Totals) -> Energies {
     }
 }
 
+fn rejection(r: &nscd::Rejection) -> String {
+    format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
+}
+
+/// Share of the energy beyond which the integration error deserves a word.
+const NOTABLE_ERROR: f64 = 0.1;
+
+fn warnings(energy: &EnergySummary) -> Vec<String> {
+    let share = energy.integration_share();
+    if share <= NOTABLE_ERROR {
+        return Vec::new();
+    }
+    vec![format!(
+        "the time integration made up {:.0} % of the energy: take smaller steps before you believe the numbers",
+        100.0 * share
+    )]
+}
+
 fn summarise(
     stepper: &Stepper<'_>,
     state: &State,
@@ -208,6 +254,7 @@ fn summarise(
     stopped: Option<NscdError>,
 ) -> Summary {
     let (counters, solid) = (&stepper.counters, &stepper.model().solid);
+    let energy = EnergySummary::new(totals.initial_energy, &energies(state, totals));
     let phases = Phase::ALL.iter().zip(stepper.phases);
     Summary {
         status: if stopped.is_none() {
@@ -229,7 +276,11 @@ fn summarise(
         phases: phases
             .map(|((_, name), seconds)| ((*name).to_owned(), seconds))
             .collect(),
-        energy: EnergySummary::new(totals.initial_energy, &energies(state, totals)),
+        indefinite_tangents: counters.indefinite_tangents as usize,
+        max_residual: totals.max_residual,
+        rejections: totals.rejections.iter().take(100).map(rejection).collect(),
+        warnings: warnings(&energy),
+        energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,
         cpu_s: stopwatch.cpu_s(),

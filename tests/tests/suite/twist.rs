@@ -8,7 +8,6 @@ fn resultants(run: &Run) -> (f64, f64) {
 }
 
 #[test]
-#[ignore = "a minute in release; cargo test --release -p tests -- --ignored two_other_codes"]
 fn force_and_moment_are_those_of_two_other_codes() {
     let run = run(&scene("press-twist", &[]));
     run.assert_audited(1e-3, 1e-9);

@@ -75,13 +75,22 @@ impl Folder {
         fs::write(&trial, b"trial")?;
         fs::remove_file(&trial)?;
         if self.file("summary.json").is_dir() || self.file("history.csv").is_dir() {
-            return Err(io::Error::other("summary.json or history.csv there is a folder"));
+            return Err(io::Error::other(
+                "summary.json or history.csv there is a folder",
+            ));
         }
         // Only beside an earlier history are pictures ours, and only those with our names.
         let drawn = self.file("history.csv").is_file();
-        let svg = |name: &str| drawn && name.ends_with(".svg") && PICTURES.iter().any(|p| name.starts_with(p));
+        let svg = |name: &str| {
+            drawn && name.ends_with(".svg") && PICTURES.iter().any(|p| name.starts_with(p))
+        };
+        let problem = |name: &str| {
+            drawn && name.starts_with("contact_step_") && name.ends_with(".hdf5")
+        };
         self.remove(&self.path, |name| {
-            matches!(name, "summary.json" | "history.csv" | "fields.pvd") || svg(name)
+            matches!(name, "summary.json" | "history.csv" | "fields.pvd")
+                || svg(name)
+                || problem(name)
         })?;
         let fields = self.file("fields");
         if fields.exists() && !fields.is_dir() {

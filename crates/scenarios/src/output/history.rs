@@ -130,7 +130,8 @@ impl Layout {
     pub fn header(&self) -> Vec<String> {
         let mut header = vec!["t".to_owned()];
         header.extend(ENERGY_COLUMNS.map(str::to_owned));
-        header.extend(["contact.closed", "contact.penetration", "contact.error"].map(str::to_owned));
+        header
+            .extend(["contact.closed", "contact.penetration", "contact.error"].map(str::to_owned));
         for name in &self.forces {
             for kind in ["force", "moment"] {
                 header.extend(["x", "y", "z"].map(|axis| format!("{kind}.{name}.{axis}")));

@@ -2,10 +2,13 @@
 
 use std::path::Path;
 
+use contact_bipotential::ContactProblem;
+
 use super::{
     Folder, Frame, History, HistoryFile, Layout, OutputError, Row, Summary, deformed_svg,
     energy_svg, series_svg, vtu_bytes, write_pvd,
 };
+use crate::fclib;
 use crate::spec::{FieldsEvery, Plot, Scene};
 
 /// Writer of a run's results. Call [`Results::create`] before anything is computed, [`Results::start`] with the
@@ -115,6 +118,20 @@ impl Results {
     /// The state at the start: curves begin there, `history.csv` has accepted steps only.
     pub fn start(&mut self, row: &Row) {
         self.history.push(self.layout.numbers(row));
+    }
+
+    /// Writes the contact problem of a step as FCLib, `contact_step_N.hdf5`.
+    ///
+    /// # Errors
+    /// [`OutputError`].
+    pub fn contact_problem(&self, step: usize, problem: &ContactProblem) -> Result<(), OutputError> {
+        let name = format!("contact_step_{step}.hdf5");
+        let path = self.folder.file(&name);
+        let bytes = fclib::write::local(&path, problem).map_err(|e| OutputError::File {
+            path: path.clone(),
+            source: std::io::Error::other(e.to_string()),
+        })?;
+        self.folder.write(&name, &bytes)
     }
 
     /// Writes an accepted step to `history.csv`.

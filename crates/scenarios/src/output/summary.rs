@@ -49,6 +49,14 @@ pub struct Summary {
     pub wall_s: f64,
     /// Wall time by phase \[s\].
     pub phases: IndexMap<String, f64>,
+    /// Tangents that were not positive definite and were shifted \[-\].
+    pub indefinite_tangents: usize,
+    /// Largest residual force over the largest force in play in an accepted step \[-\].
+    pub max_residual: f64,
+    /// Why steps were rejected, with their times, at most the first hundred.
+    pub rejections: Vec<String>,
+    /// What a reader of the results should know.
+    pub warnings: Vec<String>,
     /// Energy audit.
     pub energy: EnergySummary,
     /// Deepest penetration at the end of an accepted step \[m\].
@@ -100,6 +108,20 @@ impl EnergySummary {
             damping_dissipation: end.damping_dissipation,
             impact_loss: end.impact_loss,
             integration_error: end.integration_error,
+        }
+    }
+
+    /// Share of the energy in play that the time integration lost or gained \[-\].
+    pub fn integration_share(&self) -> f64 {
+        let scale = self
+            .initial
+            .abs()
+            .max(self.end.abs())
+            .max(self.load_work.abs());
+        if scale > 0.0 {
+            self.integration_error.abs() / scale
+        } else {
+            0.0
         }
     }
 

@@ -1,0 +1,278 @@
+//! `setae contact`: problems of any code, solved and tabulated.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::builder::PossibleValuesParser;
+use clap::builder::TypedValueParser as _;
+use contact_bipotential::{ContactProblem, Method, Outcome, SolveSettings, solve};
+use scenarios::clock::Stopwatch;
+use scenarios::fclib;
+use serde::Serialize;
+
+use crate::{STOPPED, UNUSABLE, say};
+
+/// What to solve and how.
+#[derive(clap::Args)]
+pub(crate) struct Arguments {
+    /// Problem files (Siconos .dat, FCLib .hdf5), or folders of such.
+    #[arg(value_name = "PATH", required = true)]
+    paths: Vec<PathBuf>,
+    /// Largest error of a solution, by the measure of Siconos and by the scale-free one.
+    #[arg(long, value_name = "TOL", default_value = "1e-8", value_parser = tolerance)]
+    tol: f64,
+    /// Algorithm.
+    #[arg(long, default_value = "auto", value_parser = methods())]
+    method: Method,
+    /// Largest number of iterations (sweeps, Newton steps or projections) for each problem.
+    #[arg(long, value_name = "N", default_value_t = SolveSettings::default().max_iterations as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    max_iterations: u32,
+    /// Print a JSON array instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+fn methods() -> impl clap::builder::TypedValueParser<Value = Method> {
+    let names = PossibleValuesParser::new(Method::ALL.map(Method::name));
+    names.try_map(|name| {
+        let mut all = Method::ALL.into_iter();
+        all.find(|m| m.name() == name).ok_or("unknown method")
+    })
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1.0 => Ok(x),
+        _ => Err("give a number between 0 and 1, as in 1e-8".to_owned()),
+    }
+}
+
+/// One problem of the table. What an unreadable file lacks is left out.
+#[derive(Debug, Serialize)]
+struct Row {
+    file: String,
+    contacts: Option<usize>,
+    method: Option<&'static str>,
+    iterations: Option<usize>,
+    error: Option<f64>,
+    error_scale_free: Option<f64>,
+    status: &'static str,
+    cpu_s: Option<f64>,
+    norm_u: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reason: Option<String>,
+}
+
+const CONVERGED: &str = "converged";
+const NOT_CONVERGED: &str = "not converged";
+const UNREADABLE: &str = "unreadable";
+
+/// Solves and prints; the exit code is 0 if all is solved, 1 if something is not, 2 if something cannot be read.
+pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+    let settings = SolveSettings {
+        method: arguments.method,
+        tolerance: arguments.tol,
+        max_iterations: arguments.max_iterations as usize,
+    };
+    let clock = MeanClock::new();
+    let mut rows = Vec::new();
+    for path in &arguments.paths {
+        match files(path) {
+            Ok(files) => rows.extend(files.iter().map(|f| row(f, &settings, &clock))),
+            Err(reason) => rows.push(unreadable(path, reason)),
+        }
+    }
+    if arguments.json {
+        say(&json(&rows));
+    } else {
+        say(&table(&rows));
+    }
+    let some = |status: &str| rows.iter().any(|r| r.status == status);
+    if some(UNREADABLE) {
+        ExitCode::from(UNUSABLE)
+    } else if some(NOT_CONVERGED) {
+        ExitCode::from(STOPPED)
+    } else {
+        ExitCode::SUCCESS
+    }
+}
+
+/// The path itself, or the problem files of a folder by name.
+fn files(path: &Path) -> Result<Vec<PathBuf>, String> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let entries = std::fs::read_dir(path).map_err(|e| e.to_string())?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let file = entry.map_err(|e| e.to_string())?.path();
+        let known = |e: &std::ffi::OsStr| e == "dat" || e == "hdf5" || e == "h5";
+        if file.extension().is_some_and(known) && file.is_file() {
+            files.push(file);
+        }
+    }
+    if files.is_empty() {
+        return Err("a folder without .dat, .hdf5 and .h5 files".to_owned());
+    }
+    files.sort();
+    Ok(files)
+}
+
+fn unreadable(path: &Path, reason: String) -> Row {
+    Row {
+        file: path.display().to_string(),
+        contacts: None,
+        method: None,
+        iterations: None,
+        error: None,
+        error_scale_free: None,
+        status: UNREADABLE,
+        cpu_s: None,
+        norm_u: None,
+        reason: Some(reason),
+    }
+}
+
+fn row(path: &Path, settings: &SolveSettings, clock: &MeanClock) -> Row {
+    let problem = match fclib::read(path) {
+        Ok(problem) => problem,
+        Err(error) => return unreadable(path, error.to_string()),
+    };
+    let (outcome, cpu) = clock.solve(&problem, settings);
+    let converged = outcome.is_converged();
+    Row {
+        file: path.display().to_string(),
+        contacts: Some(problem.contacts()),
+        method: Some(outcome.method.name()),
+        iterations: Some(outcome.iterations),
+        error: Some(outcome.error),
+        error_scale_free: Some(outcome.error_scale_free),
+        status: if converged { CONVERGED } else { NOT_CONVERGED },
+        cpu_s: Some(cpu),
+        norm_u: Some(outcome.u.iter().map(|x| x * x).sum::<f64>().sqrt()),
+        reason: (!converged).then(|| worst_contact(&outcome, settings.tolerance)),
+    }
+}
+
+fn worst_contact(outcome: &Outcome, tolerance: f64) -> String {
+    if let Some(refusal) = &outcome.refusal {
+        return refusal.to_string();
+    }
+    let contacts = outcome.diagnostics.iter().enumerate();
+    let worst = contacts.max_by(|a, b| a.1.error.total_cmp(&b.1.error));
+    worst.map_or_else(
+        || format!("above {tolerance:e}"),
+        |(k, d)| format!("above {tolerance:e}; worst: contact {k}, {:?}", d.status),
+    )
+}
+
+/// Measures a solve by its mean over as many runs as the clock needs to see it.
+struct MeanClock {
+    /// CPU time that is long enough \[s\].
+    enough: f64,
+}
+
+impl MeanClock {
+    /// Ticks of the CPU clock that a measurement must cover.
+    const TICKS: f64 = 20.0;
+    /// Repetitions at most.
+    const MOST: u32 = 2000;
+
+    /// Finds the tick of the CPU clock: some count nanoseconds, some hundredths of a second.
+    fn new() -> Self {
+        let start = Stopwatch::start();
+        let mut now = start.cpu_s();
+        // From an edge to the next.
+        let first = now;
+        while now == first {
+            now = start.cpu_s();
+        }
+        let edge = now;
+        while now == edge {
+            now = start.cpu_s();
+        }
+        MeanClock {
+            enough: (Self::TICKS * (now - edge)).clamp(1e-4, 0.5),
+        }
+    }
+
+    /// The outcome from a cold start and the CPU seconds of one solve.
+    fn solve(&self, problem: &ContactProblem, settings: &SolveSettings) -> (Outcome, f64) {
+        let clock = Stopwatch::start();
+        let outcome = solve(problem, &mut Vec::new(), settings);
+        let mut runs = 1;
+        let mut spent = clock.cpu_s();
+        while spent < self.enough && runs < Self::MOST {
+            solve(problem, &mut Vec::new(), settings);
+            runs += 1;
+            spent = clock.cpu_s();
+        }
+        (outcome, spent / f64::from(runs))
+    }
+}
+
+fn json(rows: &[Row]) -> String {
+    // Rows hold strings and finite numbers: they always have a JSON form.
+    let text = serde_json::to_string_pretty(rows).unwrap_or_default();
+    text + "\n"
+}
+
+const HEADS: [&str; 9] = [
+    "file",
+    "contacts",
+    "method",
+    "iterations",
+    "error",
+    "scale-free",
+    "status",
+    "cpu_s",
+    "norm_u",
+];
+
+fn table(rows: &[Row]) -> String {
+    let mut lines = vec![HEADS.map(str::to_owned)];
+    lines.extend(rows.iter().map(cells));
+    let width = |k: usize| lines.iter().map(|l| l[k].chars().count()).max();
+    let widths: Vec<usize> = (0..HEADS.len()).map(|k| width(k).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for line in &lines {
+        let mut row = String::new();
+        for (k, cell) in line.iter().enumerate() {
+            let width = widths[k];
+            // Words to the left, numbers to the right.
+            let _ = match k {
+                0 | 2 | 6 => write!(row, "{cell:<width$}  "),
+                _ => write!(row, "{cell:>width$}  "),
+            };
+        }
+        text += row.trim_end();
+        text.push('\n');
+    }
+    for row in rows {
+        if let Some(reason) = &row.reason {
+            let _ = writeln!(text, "{}: {}: {reason}", row.status, row.file);
+        }
+    }
+    let solved = rows.iter().filter(|r| r.status == CONVERGED).count();
+    let cpu: f64 = rows.iter().filter_map(|r| r.cpu_s).sum();
+    let _ = writeln!(text, "{solved} of {} solved, {cpu:.3} CPU seconds", rows.len());
+    text
+}
+
+fn cells(row: &Row) -> [String; 9] {
+    let count = |n: Option<usize>| n.map_or_else(|| "-".to_owned(), |n| n.to_string());
+    let small = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
+    let name = Path::new(&row.file).file_name();
+    [
+        name.map_or_else(|| row.file.clone(), |n| n.to_string_lossy().into_owned()),
+        count(row.contacts),
+        row.method.unwrap_or("-").to_owned(),
+        count(row.iterations),
+        small(row.error),
+        small(row.error_scale_free),
+        row.status.to_owned(),
+        row.cpu_s.map_or_else(|| "-".to_owned(), |x| format!("{x:.2e}")),
+        row.norm_u.map_or_else(|| "-".to_owned(), |x| format!("{x:.7e}")),
+    ]
+}
