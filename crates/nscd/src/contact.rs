@@ -171,7 +171,8 @@ pub(crate) fn relative_displacement(
     relative(map, &du, 1.0)
 }
 
-fn relative_velocity(frame: &StepFrame<'_>, map: &ContactMap, v: &[f64]) -> Vec<f64> {
+/// Velocity of the slave relative to the master, in local frames [m/s].
+pub(crate) fn relative_velocity(frame: &StepFrame<'_>, map: &ContactMap, v: &[f64]) -> Vec<f64> {
     relative(map, v, 1.0 / frame.dt)
 }
 

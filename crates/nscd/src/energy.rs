@@ -1,6 +1,6 @@
 //! The end of a step: energy audit, forces of interfaces and supports, new state.
 
-use crate::contact::{local_axes, relative_displacement};
+use crate::contact::{local_axes, relative_displacement, relative_velocity};
 use crate::monitor::Check;
 use crate::report::{EnergyTerms, Resultant, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
@@ -202,6 +202,7 @@ fn contact_states(
     cone: usize,
 ) -> Vec<ContactState> {
     let force_scale = trial.r.iter().fold(0.0_f64, |m, r| m.max(r.abs()));
+    let velocity = relative_velocity(frame, &trial.map, &trial.v);
     let contacts = trial.map.contacts.iter().enumerate();
     contacts
         .map(|(k, c)| {
@@ -224,6 +225,7 @@ fn contact_states(
                 slave_index: c.slave_index,
                 node: c.slave,
                 gap: c.gap,
+                normal_velocity: velocity[cone * k + cone - 1],
                 slip: [motion[0], motion[1]],
                 force,
                 frame: c.frame,

@@ -42,6 +42,8 @@ pub struct ContactState {
     pub gap: f64,
     /// Slip of the step in the local frame (t1, t2) [m].
     pub slip: [f64; 2],
+    /// Normal velocity of slave against master at the end of the step [m/s]; positive when they part.
+    pub normal_velocity: f64,
     /// Force on the slave in the local frame (t1, t2, n) [N].
     pub force: [f64; 3],
     /// Unit vectors t1, t2, n of the local frame.

@@ -212,14 +212,15 @@ impl<'m> Stepper<'m> {
             .collect();
         self.model.prescribe(frame.end(), &mut ahead);
         let map = self.detect(frame, &ahead);
-        // A pressed contact stays in the problem: whether it opens is for the law to say, not for the
-        // round-off of a predicted gap.
+        // A contact that was pressed and does not bounce stays in the problem: whether it opens is for
+        // the law to say, not for the round-off of a predicted gap or the turn of a normal.
         let touching = 1e-9 * self.reach();
+        let at_rest = 1e-6 * self.reach() / frame.dt;
         let now = &frame.now.contacts;
         let pressed = |c: &Contact| {
             let key = (c.interface, c.slave_index);
             let found = now.binary_search_by_key(&key, |k| (k.interface, k.slave_index));
-            found.is_ok_and(|k| now[k].force[2] > 0.0)
+            found.is_ok_and(|k| now[k].force[2] > 0.0 && now[k].normal_velocity <= at_rest)
         };
         filtered(&map, |_, c| c.gap <= touching || pressed(c))
     }

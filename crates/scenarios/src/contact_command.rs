@@ -256,7 +256,11 @@ fn table(rows: &[Row]) -> String {
     }
     let solved = rows.iter().filter(|r| r.status == CONVERGED).count();
     let cpu: f64 = rows.iter().filter_map(|r| r.cpu_s).sum();
-    let _ = writeln!(text, "{solved} of {} solved, {cpu:.3} CPU seconds", rows.len());
+    let _ = writeln!(
+        text,
+        "{solved} of {} solved, {cpu:.3} CPU seconds",
+        rows.len()
+    );
     text
 }
 
@@ -272,7 +276,9 @@ fn cells(row: &Row) -> [String; 9] {
         small(row.error),
         small(row.error_scale_free),
         row.status.to_owned(),
-        row.cpu_s.map_or_else(|| "-".to_owned(), |x| format!("{x:.2e}")),
-        row.norm_u.map_or_else(|| "-".to_owned(), |x| format!("{x:.7e}")),
+        row.cpu_s
+            .map_or_else(|| "-".to_owned(), |x| format!("{x:.2e}")),
+        row.norm_u
+            .map_or_else(|| "-".to_owned(), |x| format!("{x:.7e}")),
     ]
 }

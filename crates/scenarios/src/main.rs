@@ -72,9 +72,7 @@ enum Command {
         quiet: bool,
     },
     /// Solve contact problems of any code.
-    #[command(
-        after_help = "Exit code: 0 all are solved, 1 some are not, 2 some cannot be read."
-    )]
+    #[command(after_help = "Exit code: 0 all are solved, 1 some are not, 2 some cannot be read.")]
     Contact(contact_command::Arguments),
 }
 

@@ -78,7 +78,9 @@ pub fn run_and_dump(
     recorder.frame(&state, stepper.counters.steps as usize, true)?;
     let mut summary = summarise(&stepper, &state, &totals, &stopwatch, end.err());
     if let Some(step) = recorder.dump {
-        let reason = format!("no contact problem to dump: step {step} was not reached, or nothing touches in it");
+        let reason = format!(
+            "no contact problem to dump: step {step} was not reached, or nothing touches in it"
+        );
         summary.warnings.push(reason);
     }
     recorder.results.finish(&summary)?;

@@ -61,15 +61,16 @@ fn a_frictionless_run_has_one_row_a_contact() {
 fn impact_does_not_do_more_than_it_did() {
     let position = run(&scene("impact", &[])).counters;
     assert!(position.newton_iterations <= 560, "{position:?}");
-    assert!(position.factorizations <= 255, "{position:?}");
+    // Fewer than steps and a few for each of the contacts that open and close.
+    assert!(position.factorizations <= 125, "{position:?}");
     assert!(position.contact_solves <= 370, "{position:?}");
     assert_eq!(position.contacts_max, 25);
     assert_eq!(position.indefinite_tangents, 0);
     let velocity = run(&scene("impact", &["contact=Velocity"])).counters;
     assert!(velocity.newton_iterations <= 490, "{velocity:?}");
-    assert!(velocity.factorizations <= 140, "{velocity:?}");
-    // Moreau-Jean looks for contacts once a step.
-    assert_eq!(velocity.detections, velocity.steps);
+    assert!(velocity.factorizations <= 100, "{velocity:?}");
+    // Moreau-Jean looks for contacts once before a step, and for the gaps after it where any was found.
+    assert!(velocity.detections <= 2 * velocity.steps, "{velocity:?}");
 }
 
 #[test]

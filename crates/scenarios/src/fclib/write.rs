@@ -167,7 +167,10 @@ mod tests {
         assert_eq!((read.cone, read.contacts()), (Cone::Spatial, 3));
         let (w, flat) = (read.w.to_dense(), given.w.to_dense());
         assert_eq!([w[(5, 2)], w[(2, 5)]], [flat[(1, 0)], flat[(0, 1)]]);
-        assert_eq!([w[(3, 3)], w[(4, 4)], w[(3, 4)]], [flat[(1, 1)], flat[(1, 1)], 0.0]);
+        assert_eq!(
+            [w[(3, 3)], w[(4, 4)], w[(3, 4)]],
+            [flat[(1, 1)], flat[(1, 1)], 0.0]
+        );
         let solved = |p: &ContactProblem| {
             let mut r = Vec::new();
             let outcome = contact_bipotential::solve(p, &mut r, &Default::default());

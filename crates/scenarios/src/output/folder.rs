@@ -84,9 +84,8 @@ impl Folder {
         let svg = |name: &str| {
             drawn && name.ends_with(".svg") && PICTURES.iter().any(|p| name.starts_with(p))
         };
-        let problem = |name: &str| {
-            drawn && name.starts_with("contact_step_") && name.ends_with(".hdf5")
-        };
+        let problem =
+            |name: &str| drawn && name.starts_with("contact_step_") && name.ends_with(".hdf5");
         self.remove(&self.path, |name| {
             matches!(name, "summary.json" | "history.csv" | "fields.pvd")
                 || svg(name)

@@ -124,7 +124,11 @@ impl Results {
     ///
     /// # Errors
     /// [`OutputError`].
-    pub fn contact_problem(&self, step: usize, problem: &ContactProblem) -> Result<(), OutputError> {
+    pub fn contact_problem(
+        &self,
+        step: usize,
+        problem: &ContactProblem,
+    ) -> Result<(), OutputError> {
         let name = format!("contact_step_{step}.hdf5");
         let path = self.folder.file(&name);
         let bytes = fclib::write::local(&path, problem).map_err(|e| OutputError::File {
