@@ -1,6 +1,7 @@
-//! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`.
+//! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`.
 
 mod ci;
+mod fclib;
 mod tidy;
 
 use std::process::ExitCode;
@@ -26,12 +27,18 @@ enum Task {
     Ci,
     /// The invariants that a program can check
     Tidy,
+    /// All methods on the problems of other codes: docs/verification/fclib.md and its picture
+    Fclib {
+        /// Folder of the problem files; $FCLIB_DIR or ../shared/fclib without it
+        folder: Option<std::path::PathBuf>,
+    },
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
+        Task::Fclib { folder } => fclib::run(folder),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

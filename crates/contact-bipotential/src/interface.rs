@@ -40,7 +40,7 @@ pub struct Interface {
 }
 
 /// Default of [`Interface::rim_tolerance`] [-].
-pub const RIM_TOLERANCE: f64 = 1e-2;
+pub const RIM_TOLERANCE: f64 = 1e-6;
 
 impl Interface {
     /// A frictionless interface without restitution and with the default rim tolerance.

@@ -193,7 +193,7 @@ impl MeanClock {
             now = start.cpu_s();
         }
         MeanClock {
-            enough: (Self::TICKS * (now - edge)).clamp(1e-4, 0.5),
+            enough: (Self::TICKS * (now - edge)).clamp(1e-3, 0.5),
         }
     }
 

@@ -2,7 +2,7 @@
 //!
 //! A time stepper solves problem after problem whose `W`, modes and slip directions differ little. The Newton matrix of one
 //! of them, factorised once, preconditions GMRES on the next: a few products with `W` instead of a factorisation. Where
-//! that takes too long the factors are renewed. The matrix is that of [`crate::solve::newton`] with three rows a contact
+//! that takes too long the factors are renewed. The matrix is that of the semismooth Newton method with three rows a contact
 //! whatever its mode, in axes that do not turn with the slip, so that it changes as little as possible.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -51,22 +51,23 @@ impl SequenceSolver {
     ) -> Outcome {
         let sized =
             r.len() == problem.q.len() && r.len() >= SMALLEST && r.iter().all(|x| x.is_finite());
-        if sized && settings.method == Method::Auto && problem.check().is_ok() {
-            if let Delassus::Dense(w) = &problem.w {
-                let outcome = match problem.cone {
-                    Cone::Frictionless => self.attempt::<1>(problem, w, r, settings),
-                    Cone::Planar => self.attempt::<2>(problem, w, r, settings),
-                    Cone::Spatial => self.attempt::<3>(problem, w, r, settings),
-                };
-                if outcome.is_converged() {
-                    return outcome;
-                }
-                let mut rest = solve(problem, r, settings);
-                rest.iterations += outcome.iterations;
-                return rest;
-            }
+        let Delassus::Dense(w) = &problem.w else {
+            return solve(problem, r, settings);
+        };
+        if !sized || settings.method != Method::Auto || problem.check().is_err() {
+            return solve(problem, r, settings);
         }
-        solve(problem, r, settings)
+        let outcome = match problem.cone {
+            Cone::Frictionless => self.attempt::<1>(problem, w, r, settings),
+            Cone::Planar => self.attempt::<2>(problem, w, r, settings),
+            Cone::Spatial => self.attempt::<3>(problem, w, r, settings),
+        };
+        if outcome.is_converged() {
+            return outcome;
+        }
+        let mut rest = solve(problem, r, settings);
+        rest.iterations += outcome.iterations;
+        rest
     }
 
     fn attempt<const D: usize>(

@@ -117,6 +117,7 @@ fn row(time: f64) -> Row {
             Force::default(),
         ],
         probes: (0..6).map(f64::from).collect(),
+        ..Row::default()
     }
 }
 
@@ -140,6 +141,9 @@ fn history_has_the_promised_columns_and_keeps_bits() {
         "dissipation.damping",
         "dissipation.impact",
         "error.integration",
+        "contact.closed",
+        "contact.penetration",
+        "contact.error",
         "force.blocks.x",
         "force.blocks.y",
         "force.blocks.z",

@@ -103,6 +103,7 @@ fn every_asked_picture_is_drawn() {
                 },
             ],
             probes: vec![0.0, 1.5 * t, -t, 0.0, 1.5 - hit, 2.0 * hit - 1.0],
+            ..Row::default()
         };
         if step == 0 {
             results.start(&row);
