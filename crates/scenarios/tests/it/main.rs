@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // helpers of tests fail the test
 
 mod cli;
+mod contact;
 mod locate;
 mod output;
 mod overrides;
