@@ -66,7 +66,7 @@ where
     jac
 }
 
-/// Gradients `dN_a/dX_J` \[1/m\] stored `[J][a]`, and the determinant of the Jacobian \[m^3\].
+/// Gradients `dN_a/dX_J` \[1/m\] stored `\[J\][a]`, and the determinant of the Jacobian \[m^3\].
 ///
 /// The gradients are meaningless unless the determinant is positive.
 pub fn reference_gradients<E, const N: usize>(

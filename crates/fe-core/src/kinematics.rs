@@ -35,7 +35,7 @@ pub fn inverse(m: &[[f64; 3]; 3]) -> ([[f64; 3]; 3], f64) {
 
 /// Deformation gradient `F = I + u (x) dN/dX` \[-\].
 ///
-/// `u` are nodal displacements \[m\] stored `[i][a]`, `gradients` are `dN_a/dX_J` \[1/m\] stored `[J][a]`.
+/// `u` are nodal displacements \[m\] stored `[i][a]`, `gradients` are `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
 #[inline(always)]
 pub fn deformation_gradient<const N: usize>(
     u: &[[f64; N]; 3],
@@ -91,7 +91,7 @@ pub fn von_mises(s: &[f64; 6]) -> f64 {
 /// `B_L` \[1/m\] \[Feng2007, eq. 25\]: strain linear in the nodal displacements.
 ///
 /// Column of node `a`: `[i]` component of the displacement, then the six strains with engineering shear.
-/// `gradients` are `dN_a/dX_J` \[1/m\] stored `[J][a]`.
+/// `gradients` are `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
 pub fn linear_strain_matrix<const N: usize>(gradients: &[[f64; N]; 3]) -> [[[f64; 6]; 3]; N] {
     let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     strain_matrix(&identity, gradients)

@@ -31,9 +31,9 @@ pub struct Options {
     pub stretches: [f64; 2],
     /// Whether `W(Q C Q^T) = W(C)`, and Hooke's law with two moduli at the reference, are demanded.
     pub isotropic: bool,
-    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated states.
+    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated states [-].
     pub tolerance: f64,
-    /// Allowed relative difference from central differences.
+    /// Allowed relative difference from central differences [-].
     pub difference_tolerance: f64,
 }
 

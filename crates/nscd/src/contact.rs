@@ -20,7 +20,7 @@ use crate::trial::{StepFrame, Trial};
 /// here decides a result: forces are a warm start, scales only weigh an error.
 #[derive(Debug)]
 pub(crate) struct ContactMemory {
-    /// Force of each slave node of each interface, `cone` entries each [N].
+    /// Force of each slave node of each interface, `cone` entries each \[N\].
     forces: Vec<Vec<f64>>,
     /// `1 / trace W_cc` of each slave node of each interface [N/m].
     stiffness: Vec<Vec<f64>>,
@@ -130,7 +130,7 @@ pub(crate) fn cone_of(model: &Model) -> Cone {
     }
 }
 
-/// Local variable of every contact of `map` at an iterate [m]: slip of the step and gap, or at the
+/// Local variable of every contact of `map` at an iterate \[m\]: slip of the step and gap, or at the
 /// velocity level the end velocity times the displacement that a unit of it stands for.
 pub(crate) fn local_variable(
     frame: &StepFrame<'_>,
@@ -161,7 +161,7 @@ pub(crate) fn local_variable(
     }
 }
 
-/// Displacement of the slave relative to the master in the step, in local frames [m].
+/// Displacement of the slave relative to the master in the step, in local frames \[m\].
 pub(crate) fn relative_displacement(
     frame: &StepFrame<'_>,
     map: &ContactMap,
@@ -211,7 +211,7 @@ pub(crate) fn filtered(map: &ContactMap, keep: impl Fn(usize, &Contact) -> bool)
 /// Error of the contact law at an iterate.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LawError {
-    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|` [N], `rho = 1/trace W_cc`.
+    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|` \[N\], `rho = 1/trace W_cc`.
     pub(crate) largest: f64,
     /// Index of that contact in the map.
     pub(crate) worst: usize,
@@ -335,7 +335,7 @@ impl LinearisedContact {
         })
     }
 
-    /// Solves it to the relative error `tolerance`, remembers the forces and returns `H^T r` [N].
+    /// Solves it to the relative error `tolerance`, remembers the forces and returns `H^T r` \[N\].
     pub(crate) fn solve(
         mut self,
         model: &Model,

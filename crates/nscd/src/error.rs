@@ -49,9 +49,9 @@ pub enum NscdError {
         "stopped at t = {time:e} s: no step down to {smallest:e} s converges. Last reason: {failure}"
     )]
     Stopped {
-        /// Time reached [s].
+        /// Time reached \[s\].
         time: f64,
-        /// Smallest step tried [s].
+        /// Smallest step tried \[s\].
         smallest: f64,
         /// Why the last try failed.
         failure: StepFailure,
@@ -59,7 +59,7 @@ pub enum NscdError {
     /// The observer could not do its part, e.g. write a file.
     #[error("stopped at t = {time:e} s by the output: {source}")]
     Observer {
-        /// Time reached [s].
+        /// Time reached \[s\].
         time: f64,
         /// What the observer said.
         source: Box<dyn std::error::Error + Send + Sync>,
@@ -81,11 +81,11 @@ pub enum StepFailure {
     Newton {
         /// Iterations done.
         iterations: usize,
-        /// Largest residual force [N].
+        /// Largest residual force \[N\].
         residual: f64,
         /// Where it is.
         node: usize,
-        /// What would have been accepted [N].
+        /// What would have been accepted \[N\].
         allowed: f64,
         /// Relative error of the contact law.
         contact_error: f64,
@@ -137,9 +137,9 @@ pub enum StepFailure {
     TooFast {
         /// Name of the interface.
         interface: String,
-        /// Relative motion [m].
+        /// Relative motion \[m\].
         travel: f64,
-        /// Reach of the search [m].
+        /// Reach of the search \[m\].
         reach: f64,
     },
     /// Something became infinite or not a number.

@@ -19,6 +19,7 @@ mod monitor;
 mod ordering;
 mod report;
 mod scheme;
+mod search;
 mod settings;
 mod state;
 mod stepper;

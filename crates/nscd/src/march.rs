@@ -27,15 +27,15 @@ pub trait Observer {
 /// Sums and extremes over the accepted steps.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
-    /// Energy at the start [J].
+    /// Energy at the start \[J\].
     pub initial_energy: f64,
     /// Energy terms summed over the steps.
     pub energy: EnergyTerms,
-    /// Deepest penetration at the end of a step [m].
+    /// Deepest penetration at the end of a step \[m\].
     pub max_penetration: f64,
-    /// Largest relative error of the contact law in an accepted step.
+    /// Largest relative error of the contact law in an accepted step [-].
     pub max_contact_error: f64,
-    /// Largest relative residual in an accepted step.
+    /// Largest relative residual in an accepted step [-].
     pub max_residual: f64,
     /// Rejected steps.
     pub rejections: Vec<Rejection>,
@@ -53,9 +53,9 @@ impl Totals {
 /// Span of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
-    /// End time [s].
+    /// End time \[s\].
     pub end: f64,
-    /// Nominal step [s].
+    /// Nominal step \[s\].
     pub dt: f64,
 }
 

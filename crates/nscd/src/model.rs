@@ -9,7 +9,7 @@ use crate::settings::Settings;
 /// A dead load: a fixed nodal force vector times a function of time.
 #[derive(Debug, Clone)]
 pub struct Load {
-    /// Nodal forces at factor 1 [N], flat.
+    /// Nodal forces at factor 1 \[N\], flat.
     pub forces: Vec<f64>,
     /// Factor over time [-].
     pub factor: Table,
@@ -20,7 +20,7 @@ pub struct Load {
 pub struct Rayleigh {
     /// Factor of the mass matrix [1/s].
     pub mass: f64,
-    /// Factor of the initial stiffness [s].
+    /// Factor of the initial stiffness \[s\].
     pub stiffness: f64,
 }
 
@@ -77,7 +77,7 @@ impl Model {
         times
     }
 
-    /// Positions of the nodes at displacement `u`, flat [m].
+    /// Positions of the nodes at displacement `u`, flat \[m\].
     pub fn positions(&self, u: &[f64]) -> Vec<f64> {
         let dim = self.solid.dim();
         let points = self.solid.mesh().points.iter();
@@ -87,7 +87,7 @@ impl Model {
             .collect()
     }
 
-    /// Kinetic energy [J]; an equilibrium path has none.
+    /// Kinetic energy \[J\]; an equilibrium path has none.
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         match self.scheme.inertia {
             Inertia::Dynamic => 0.5 * self.mass.quadratic(v),
@@ -95,7 +95,7 @@ impl Model {
         }
     }
 
-    /// Overwrites `f` with the external forces at time `t` [N].
+    /// Overwrites `f` with the external forces at time `t` \[N\].
     pub(crate) fn external_force(&self, t: f64, f: &mut [f64]) {
         f.fill(0.0);
         for load in &self.loads {
@@ -106,7 +106,7 @@ impl Model {
         }
     }
 
-    /// Overwrites the prescribed entries of `u` with their values at time `t` [m].
+    /// Overwrites the prescribed entries of `u` with their values at time `t` \[m\].
     pub(crate) fn prescribe(&self, t: f64, u: &mut [f64]) {
         let dim = self.solid.dim();
         for support in &self.supports {

@@ -20,7 +20,7 @@ const CLOSE: f64 = 100.0;
 pub(crate) struct Check {
     pub(crate) iteration: usize,
     pub(crate) converged: bool,
-    /// Largest residual force on a free dof [N], its node, and what is allowed.
+    /// Largest residual force on a free dof \[N\], its node, and what is allowed.
     pub(crate) residual: f64,
     node: usize,
     allowed: f64,
@@ -70,7 +70,7 @@ impl Check {
 #[derive(Debug)]
 pub(crate) struct Monitor {
     iteration: usize,
-    /// Residual of each body in the last two iterations [N].
+    /// Residual of each body in the last two iterations \[N\].
     norms: Vec<[f64; 2]>,
     /// Factorizations of each body before the step.
     epochs: Vec<u64>,
@@ -80,7 +80,7 @@ pub(crate) struct Monitor {
     extent: f64,
     element_size: f64,
     largest_mass: f64,
-    /// Largest residual of the last iterations [N].
+    /// Largest residual of the last iterations \[N\].
     recent: [f64; STAGNATION],
 }
 
@@ -248,7 +248,7 @@ fn contact_cost(rows: usize) -> f64 {
     n * n * 3e-8
 }
 
-/// Longest edge of a bounding box of an element [m].
+/// Longest edge of a bounding box of an element \[m\].
 fn largest_element(model: &Model) -> f64 {
     let points = &model.solid.mesh().points;
     let cells = model

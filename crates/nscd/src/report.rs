@@ -81,41 +81,41 @@ impl Clock for NoClock {
     }
 }
 
-/// Energy terms of one step or summed over a run [J]. Each is computed from its own formula, none
+/// Energy terms of one step or summed over a run \[J\]. Each is computed from its own formula, none
 /// as the remainder of the others, so that [`EnergyTerms::imbalance`] proves something.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EnergyTerms {
-    /// Change of the kinetic energy `(v1 . M v1 - v0 . M v0)/2`.
+    /// Change of the kinetic energy `(v1 . M v1 - v0 . M v0)/2` \[J\].
     pub kinetic: f64,
-    /// Change of the strain energy.
+    /// Change of the strain energy \[J\].
     pub strain: f64,
-    /// Change of the adhesive energy of the bonds.
+    /// Change of the adhesive energy of the bonds \[J\].
     pub adhesive: f64,
-    /// Work of loads, supports and moving obstacles.
+    /// Work of loads, supports and moving obstacles \[J\].
     pub load_work: f64,
-    /// Dissipation of friction, `-r_t . dx_t`.
+    /// Dissipation of friction, `-r_t . dx_t` \[J\].
     pub friction: f64,
-    /// Dissipation of breaking and healing bonds.
+    /// Dissipation of breaking and healing bonds \[J\].
     pub bond: f64,
-    /// Dissipation of damping.
+    /// Dissipation of damping \[J\].
     pub damping: f64,
-    /// Loss of closing contacts, `r_n (g_0 - g_1)`, or `-r_n dx_n` at the velocity level.
+    /// Loss of closing contacts, `r_n (g_0 - g_1)`, or `-r_n dx_n` at the velocity level \[J\].
     pub impact: f64,
-    /// Loss by the integration of the bulk, `du . (F_int used) - dW`.
+    /// Loss by the integration of the bulk, `du . (F_int used) - dW` \[J\].
     pub bulk_error: f64,
-    /// Loss by the time scheme, `(du/dt - (v0+v1)/2) . M (v1-v0)`, that is `(theta-1/2) |dv|_M^2`.
+    /// Loss by the time scheme, `(du/dt - (v0+v1)/2) . M (v1-v0)`, that is `(theta-1/2) |dv|_M^2` \[J\].
     pub scheme_error: f64,
-    /// Loss because gaps are curved: `-r_n (n . dX - (g_1 - g_0))`.
+    /// Loss because gaps are curved: `-r_n (n . dX - (g_1 - g_0))` \[J\].
     pub gap_error: f64,
 }
 
 impl EnergyTerms {
-    /// All that the discretisation loses (positive) or gains (negative) [J].
+    /// All that the discretisation loses (positive) or gains (negative) \[J\].
     pub fn integration_error(&self) -> f64 {
         self.bulk_error + self.scheme_error + self.gap_error
     }
 
-    /// What the balance leaves open [J]: zero but for the tolerance of Newton's iteration.
+    /// What the balance leaves open \[J\]: zero but for the tolerance of Newton's iteration.
     pub fn imbalance(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.adhesive;
         let lost =
@@ -142,7 +142,7 @@ impl EnergyTerms {
 /// Force and moment about the origin that act on the bodies.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Resultant {
-    /// Force [N].
+    /// Force \[N\].
     pub force: [f64; 3],
     /// Moment about the origin at the end positions [N m].
     pub moment: [f64; 3],
@@ -151,19 +151,19 @@ pub struct Resultant {
 /// One accepted step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepReport {
-    /// End of the step [s].
+    /// End of the step \[s\].
     pub time: f64,
-    /// Length of the step [s].
+    /// Length of the step \[s\].
     pub dt: f64,
     /// Corrections made.
     pub newton_iterations: usize,
-    /// Residual force over the largest force in play, recomputed at the end state.
+    /// Residual force over the largest force in play, recomputed at the end state [-].
     pub residual: f64,
-    /// Error of the contact law relative to the largest contact force, recomputed at the end state.
+    /// Error of the contact law relative to the largest contact force, recomputed at the end state [-].
     pub contact_error: f64,
     /// Contacts with a force or a closed gap.
     pub contacts_closed: usize,
-    /// Deepest penetration [m].
+    /// Deepest penetration \[m\].
     pub penetration: f64,
     /// Energy terms of the step.
     pub energy: EnergyTerms,
@@ -176,9 +176,9 @@ pub struct StepReport {
 /// A rejected step.
 #[derive(Debug, Clone)]
 pub struct Rejection {
-    /// Start of the step [s].
+    /// Start of the step \[s\].
     pub time: f64,
-    /// Its length [s].
+    /// Its length \[s\].
     pub dt: f64,
     /// Why it was rejected.
     pub reason: crate::error::StepFailure,

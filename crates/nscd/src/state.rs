@@ -3,29 +3,29 @@
 /// State at the end of an accepted step. Flat vectors are `dim * node + component`.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Time [s].
+    /// Time \[s\].
     pub time: f64,
-    /// Displacement [m].
+    /// Displacement \[m\].
     pub u: Vec<f64>,
     /// Velocity [m/s].
     pub v: Vec<f64>,
-    /// Internal force `F_int(u)` [N].
+    /// Internal force `F_int(u)` \[N\].
     pub internal_force: Vec<f64>,
-    /// External force [N].
+    /// External force \[N\].
     pub external_force: Vec<f64>,
-    /// Strain energy [J].
+    /// Strain energy \[J\].
     pub strain_energy: f64,
-    /// Kinetic energy [J].
+    /// Kinetic energy \[J\].
     pub kinetic_energy: f64,
-    /// Forces of the supports and driven boundaries in the last step [N], zero on free unknowns.
+    /// Forces of the supports and driven boundaries in the last step \[N\], zero on free unknowns.
     pub support_force: Vec<f64>,
-    /// Contact force on the nodes in the last step, `H^T r` [N].
+    /// Contact force on the nodes in the last step, `H^T r` \[N\].
     pub contact_force: Vec<f64>,
     /// State of each contact in the last step, in the order (interface, slave node).
     pub contacts: Vec<ContactState>,
-    /// Length of the step that led here [s]; `None` at the start.
+    /// Length of the step that led here \[s\]; `None` at the start.
     pub last_dt: Option<f64>,
-    /// Displacement at the start of the last step [m]; equals `u` at the start.
+    /// Displacement at the start of the last step \[m\]; equals `u` at the start.
     pub u_before: Vec<f64>,
 }
 
@@ -38,13 +38,13 @@ pub struct ContactState {
     pub slave_index: usize,
     /// Mesh node.
     pub node: u32,
-    /// Gap at the end of the step [m]; negative is penetration.
+    /// Gap at the end of the step \[m\]; negative is penetration.
     pub gap: f64,
-    /// Slip of the step in the local frame (t1, t2) [m].
+    /// Slip of the step in the local frame (t1, t2) \[m\].
     pub slip: [f64; 2],
     /// Normal velocity of slave against master at the end of the step [m/s]; positive when they part.
     pub normal_velocity: f64,
-    /// Force on the slave in the local frame (t1, t2, n) [N].
+    /// Force on the slave in the local frame (t1, t2, n) \[N\].
     pub force: [f64; 3],
     /// Unit vectors t1, t2, n of the local frame.
     pub frame: [[f64; 3]; 3],

@@ -1,10 +1,10 @@
 //! One time step: predict, correct until balance and contact law agree, accept.
 
-use contact_bipotential::{Contact, ContactMap, Detector, Master};
+use contact_bipotential::{ContactMap, Detector};
 use fe_core::{ElementWorkspace, FeError, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
-use crate::contact::{ContactMemory, LinearisedContact, cone_of, filtered, local_variable};
+use crate::contact::{ContactMemory, LinearisedContact, cone_of, local_variable};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
 use crate::model::Model;
@@ -13,16 +13,15 @@ use crate::ordering::Graph;
 use crate::report::{Clock, Counters, Phase, Phases, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
 use crate::state::State;
-use crate::swept::Swept;
 use crate::trial::{StepFrame, Trial, damping_force};
 
 /// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
 /// leaves the state as it was.
 pub struct Stepper<'m> {
-    model: &'m Model,
+    pub(crate) model: &'m Model,
     pub(crate) bodies: Vec<BodySystem>,
     pub(crate) fixed: Vec<bool>,
-    detector: Detector,
+    pub(crate) detector: Detector,
     pub(crate) memory: ContactMemory,
     work: ElementWorkspace,
     initial_stiffness: Option<ElementWorkspace>,
@@ -32,7 +31,7 @@ pub struct Stepper<'m> {
     pub counters: Counters,
     /// Seconds by phase so far.
     pub phases: Phases,
-    clock: Box<dyn Clock>,
+    pub(crate) clock: Box<dyn Clock>,
 }
 
 impl<'m> Stepper<'m> {
@@ -121,7 +120,7 @@ impl<'m> Stepper<'m> {
         })
     }
 
-    /// One step of length `dt` [s] from `now`, which stays untouched.
+    /// One step of length `dt` \[s\] from `now`, which stays untouched.
     ///
     /// # Errors
     /// Why the step was rejected.
@@ -198,87 +197,6 @@ impl<'m> Stepper<'m> {
         );
         self.evaluate(frame, &mut trial)?;
         Ok(trial)
-    }
-
-    /// Contacts whose gap closes in free flight [physics of Moreau-Jean]; they keep their frames
-    /// through the step.
-    fn predicted_contacts(&mut self, frame: &StepFrame<'_>) -> ContactMap {
-        let mut ahead: Vec<f64> = frame
-            .now
-            .u
-            .iter()
-            .zip(&frame.now.v)
-            .map(|(u, v)| u + frame.dt * v)
-            .collect();
-        self.model.prescribe(frame.end(), &mut ahead);
-        let map = self.detect(frame, &ahead);
-        // A contact that was pressed and does not bounce stays in the problem: whether it opens is for
-        // the law to say, not for the round-off of a predicted gap or the turn of a normal.
-        let touching = 1e-9 * self.reach();
-        let at_rest = 1e-6 * self.reach() / frame.dt;
-        let now = &frame.now.contacts;
-        let pressed = |c: &Contact| {
-            let key = (c.interface, c.slave_index);
-            let found = now.binary_search_by_key(&key, |k| (k.interface, k.slave_index));
-            found.is_ok_and(|k| now[k].force[2] > 0.0 && now[k].normal_velocity <= at_rest)
-        };
-        filtered(&map, |_, c| c.gap <= touching || pressed(c))
-    }
-
-    /// Largest distance at which contacts are looked for [m].
-    fn reach(&self) -> f64 {
-        let interfaces = self.model.interfaces.iter();
-        interfaces.map(|i| i.search_distance).fold(0.0, f64::max)
-    }
-
-    /// Gaps at the end of a step at the velocity level, where the contacts keep their predicted frames.
-    pub(crate) fn end_gaps(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) {
-        let end = self.detect(frame, &trial.u);
-        for c in &mut trial.map.contacts {
-            let key = (c.interface, c.slave_index);
-            let found = end
-                .contacts
-                .binary_search_by_key(&key, |e| (e.interface, e.slave_index));
-            if let Ok(k) = found {
-                c.gap = end.contacts[k].gap;
-            }
-        }
-    }
-
-    /// A slave that crosses more than the reach of the search in one step could pass through its
-    /// master unseen: such a step is refused when the two come near each other on the way.
-    fn refuse_tunnelling(&self, frame: &StepFrame<'_>, trial: &Trial) -> Result<(), StepFailure> {
-        let start = self.model.positions(&frame.now.u);
-        let end = self.model.positions(&trial.u);
-        let dim = self.model.solid.dim();
-        for interface in &self.model.interfaces {
-            let Master::Surface(master) = &interface.master else {
-                continue;
-            };
-            let swept = |nodes: &[u32]| Swept::of(nodes, dim, &start, &end);
-            let (slave, master) = (swept(&interface.slave), swept(&master.nodes));
-            let (travel, reach) = (slave.fastest_against(&master), interface.search_distance);
-            if travel > reach && slave.meets(&master, reach) {
-                let interface = interface.name.clone();
-                return Err(StepFailure::TooFast {
-                    interface,
-                    travel,
-                    reach,
-                });
-            }
-        }
-        Ok(())
-    }
-
-    fn detect(&mut self, frame: &StepFrame<'_>, u: &[f64]) -> ContactMap {
-        let start = self.clock.seconds();
-        let positions = self.model.positions(u);
-        let map = self
-            .detector
-            .detect(&positions, frame.now.time, frame.end());
-        self.counters.detections += 1;
-        self.book(Phase::Detection, start);
-        map
     }
 
     /// Forces, contacts and balance at the iterate.
@@ -468,7 +386,7 @@ impl<'m> Stepper<'m> {
         target.iter().any(|t| *t != 0.0).then_some(target)
     }
 
-    fn book(&mut self, phase: Phase, start: f64) {
+    pub(crate) fn book(&mut self, phase: Phase, start: f64) {
         self.phases[phase as usize] += self.clock.seconds() - start;
     }
 }

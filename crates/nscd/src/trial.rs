@@ -29,16 +29,16 @@ pub(crate) struct Trial {
     pub(crate) internal_force: Vec<f64>,
     pub(crate) strain_energy: f64,
     pub(crate) damping_force: Vec<f64>,
-    /// Force balance without contact [N]: zero together with the contact forces on free dofs,
+    /// Force balance without contact \[N\]: zero together with the contact forces on free dofs,
     /// minus the support forces on prescribed ones.
     pub(crate) balance: Vec<f64>,
     /// Candidate contacts at the iterate.
     pub(crate) map: ContactMap,
-    /// Local variable of the contact law of each candidate (slip and gap) [m].
+    /// Local variable of the contact law of each candidate (slip and gap) \[m\].
     pub(crate) x: Vec<f64>,
-    /// Force of each candidate, like `x` [N].
+    /// Force of each candidate, like `x` \[N\].
     pub(crate) r: Vec<f64>,
-    /// `H^T r` [N].
+    /// `H^T r` \[N\].
     pub(crate) contact_force: Vec<f64>,
     /// Correction that the prescribed dofs still have to make.
     pub(crate) pending: Option<Vec<f64>>,

@@ -18,7 +18,7 @@ const BATCH: usize = 8;
 /// Rows of a tangent block that are summed together, in registers.
 const ROWS: usize = 4;
 
-/// Gradients `dN_a/dX_J` \[1/m\] stored `[J][a]`.
+/// Gradients `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
 pub(super) type Gradients<const N: usize> = [[f64; N]; 3];
 
 /// Where an element failed.
@@ -129,7 +129,7 @@ pub(super) fn tangent<M: Material, const N: usize>(
     Ok(energy)
 }
 
-/// `volume A_iJkL` stored `[pair ik][J][L]`.
+/// `volume A_iJkL` stored `[pair ik]\[J\][L]`.
 #[inline(always)]
 fn elasticity(
     f: &[[f64; 3]; 3],

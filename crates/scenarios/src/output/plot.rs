@@ -91,7 +91,7 @@ fn spoken(column: &str) -> String {
     }
 }
 
-/// Columns of a history over time. `label` is a quantity with its unit, `Force [N]`; `columns` are pairs of the name
+/// Columns of a history over time. `label` is a quantity with its unit, `Force \[N\]`; `columns` are pairs of the name
 /// in the legend and the name of the column.
 ///
 /// # Errors

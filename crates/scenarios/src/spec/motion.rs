@@ -31,7 +31,7 @@ impl Default for Table {
 }
 
 impl Table {
-    /// Points `(t [s], value)`; a constant is one point at t = 0.
+    /// Points `(t \[s\], value)`; a constant is one point at t = 0.
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Table::Constant(value) => vec![(0.0, *value)],
