@@ -1,6 +1,6 @@
 //! Frictional contact problems written by other codes: Siconos `.dat` and FCLib `.hdf5`.
 //!
-//! Both keep the normal component first; problems here have it last, and the readers turn them ([`write`] turns them back). What a file claims about
+//! Both keep the normal component first; problems here have it last, and the readers turn them ([`mod@write`] turns them back). What a file claims about
 //! its sizes is never believed further than its length allows.
 
 pub mod dat;
@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use contact_bipotential::{ContactError, ContactProblem};
 use thiserror::Error;
 
-/// Largest file that is read [bytes].
+/// Largest file that is read \[bytes\].
 pub const LARGEST_FILE: u64 = 1 << 30;
 /// Largest number of unknowns that a file may announce.
 pub const LARGEST_SIZE: usize = 1 << 24;
