@@ -1,6 +1,6 @@
 //! All methods of the contact solver on the problems of other codes, as a table and as performance profiles.
 
-mod profile;
+pub(crate) mod profile;
 mod report;
 
 use std::path::{Path, PathBuf};
@@ -27,11 +27,11 @@ const TOLERANCES: [&str; 2] = ["1e-8", "1e-12"];
 
 /// What one method made of one problem.
 #[derive(Debug, Clone, Deserialize)]
-struct Solve {
+pub(crate) struct Solve {
     file: String,
-    contacts: Option<usize>,
+    pub(crate) contacts: Option<usize>,
     error: Option<f64>,
-    error_scale_free: Option<f64>,
+    pub(crate) error_scale_free: Option<f64>,
     status: String,
     cpu_s: Option<f64>,
 }
@@ -42,11 +42,11 @@ impl Solve {
         name.map_or_else(|| self.file.clone(), |n| n.to_string_lossy().into_owned())
     }
 
-    fn solved(&self) -> bool {
+    pub(crate) fn solved(&self) -> bool {
         self.status == "converged"
     }
 
-    fn cpu(&self) -> f64 {
+    pub(crate) fn cpu(&self) -> f64 {
         self.cpu_s.unwrap_or(f64::NAN)
     }
 
@@ -66,8 +66,7 @@ struct Study {
 }
 
 pub(crate) fn run(folder: Option<PathBuf>) -> Outcome {
-    let named = folder.or_else(|| std::env::var_os("FCLIB_DIR").map(PathBuf::from));
-    let folder = named.unwrap_or_else(|| root().join("../shared/fclib"));
+    let folder = problem_folder(folder);
     if !folder.is_dir() {
         println!(
             "skipped: no folder {} (name one, or set FCLIB_DIR)",
@@ -87,20 +86,28 @@ pub(crate) fn run(folder: Option<PathBuf>) -> Outcome {
         }
         studies.push(Study { tolerance, methods });
     }
-    let target = root().join("docs/verification");
-    let write = |name: &str, text: &str| {
-        let path = target.join(name);
-        std::fs::create_dir_all(&target)
-            .and_then(|()| std::fs::write(&path, text))
-            .map_err(|e| format!("{}: {e}", path.display()))
-    };
-    write("fclib.md", &report::markdown(&studies))?;
-    write("fclib_profile.svg", &profile::svg(&studies)?)?;
+    write_document("fclib.md", &report::markdown(&studies))?;
+    write_document("fclib_profile.svg", &profile::svg(&studies)?)?;
     println!("docs/verification/fclib.md and fclib_profile.svg written");
     Ok(())
 }
 
-fn build() -> Result<PathBuf, String> {
+/// Writes a file of `docs/verification`.
+pub(crate) fn write_document(name: &str, text: &str) -> Outcome {
+    let target = root().join("docs/verification");
+    let path = target.join(name);
+    std::fs::create_dir_all(&target)
+        .and_then(|()| std::fs::write(&path, text))
+        .map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// The folder of the problem files: the one named, `$FCLIB_DIR`, or `../shared/fclib`.
+pub(crate) fn problem_folder(named: Option<PathBuf>) -> PathBuf {
+    let named = named.or_else(|| std::env::var_os("FCLIB_DIR").map(PathBuf::from));
+    named.unwrap_or_else(|| root().join("../shared/fclib"))
+}
+
+pub(crate) fn build() -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let built = Command::new(cargo)
         .args(["build", "--release", "--quiet", "--package", "scenarios"])
@@ -114,7 +121,7 @@ fn build() -> Result<PathBuf, String> {
     Ok(target.join("release/setae"))
 }
 
-fn solve(
+pub(crate) fn solve(
     program: &Path,
     folder: &Path,
     method: &str,

@@ -1,7 +1,9 @@
-//! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`.
+//! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`,
+//! `cargo xtask precision`.
 
 mod ci;
 mod fclib;
+mod precision;
 mod tidy;
 
 use std::process::ExitCode;
@@ -32,6 +34,8 @@ enum Task {
         /// Folder of the problem files; $FCLIB_DIR or ../shared/fclib without it
         folder: Option<std::path::PathBuf>,
     },
+    /// Error against time of all methods: docs/verification/contact_precision.md and its picture
+    Precision,
 }
 
 fn main() -> ExitCode {
@@ -39,6 +43,7 @@ fn main() -> ExitCode {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
+        Task::Precision => precision::run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

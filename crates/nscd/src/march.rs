@@ -143,7 +143,13 @@ impl Control {
         let target = *self.targets.iter().find(|&&target| target > t + slack)?;
         let wish = self.span.dt * 0.5_f64.powi(self.level as i32);
         let count = ((target - t) / wish - 1e-6).ceil().max(1.0);
-        Some((target - t) / count)
+        let even = (target - t) / count;
+        // The same bits step after step keep the factorization.
+        Some(if (even - wish).abs() < 1e-9 * wish {
+            wish
+        } else {
+            even
+        })
     }
 
     fn accepted(&mut self, state: &mut State) {

@@ -105,7 +105,7 @@ fn the_bar_flies_back_as_fast_as_it_came() {
     let run = bar(&[]);
     let velocity = run.momentum(&run.last().state)[0] / run.built.model.mass.total();
     assert!(
-        (velocity - 1e-3).abs() < 0.02e-3,
+        (velocity - 1e-4).abs() < 0.02e-4,
         "mean velocity {velocity} m/s"
     );
 }

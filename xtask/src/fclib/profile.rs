@@ -7,11 +7,11 @@ use super::Study;
 use super::report::fastest;
 
 const SIZE: (u32, u32) = (1100, 460);
-const LEGEND: u32 = 210;
+pub(crate) const LEGEND: u32 = 210;
 /// Largest factor shown, as a power of two.
 const DOUBLINGS: f64 = 12.0;
 /// Okabe and Ito's colours and two more, in the order of the methods.
-const COLORS: [RGBColor; 9] = [
+pub(crate) const COLORS: [RGBColor; 9] = [
     RGBColor(0, 0, 0),
     RGBColor(213, 94, 0),
     RGBColor(0, 114, 178),
@@ -23,8 +23,8 @@ const COLORS: [RGBColor; 9] = [
     RGBColor(120, 120, 120),
 ];
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Drawn = Result<(), Box<dyn std::error::Error>>;
+pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 pub(super) fn svg(studies: &[Study]) -> Result<String, String> {
     let mut text = String::new();
@@ -40,17 +40,22 @@ fn draw(text: &mut String, studies: &[Study]) -> Drawn {
         chart(area, study)?;
     }
     if let Some(study) = studies.first() {
-        for (k, (method, _)) in study.methods.iter().enumerate() {
-            let y = 60 + 24 * k as i32;
-            let line = vec![(4, y), (28, y)];
-            legend.draw(&PathElement::new(
-                line,
-                COLORS[k % COLORS.len()].stroke_width(3),
-            ))?;
-            legend.draw(&Text::new(*method, (36, y - 7), ("sans-serif", 15)))?;
-        }
+        let names: Vec<&str> = study.methods.iter().map(|m| m.0).collect();
+        key(&legend, &names)?;
     }
     root.present()?;
+    Ok(())
+}
+
+/// The colours of the methods.
+pub(crate) fn key(area: &Area<'_>, names: &[&str]) -> Drawn {
+    for (k, name) in names.iter().enumerate() {
+        let y = 60 + 24 * k as i32;
+        let line = vec![(4, y), (28, y)];
+        let color = COLORS[k % COLORS.len()];
+        area.draw(&PathElement::new(line, color.stroke_width(3)))?;
+        area.draw(&Text::new(*name, (36, y - 7), ("sans-serif", 15)))?;
+    }
     Ok(())
 }
 
