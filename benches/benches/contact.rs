@@ -24,7 +24,7 @@ const MU: f64 = 0.4;
 /// Sweeps of one measurement of the cost of a sweep: enough to hide what comes before and after.
 const SWEEPS: usize = 50;
 
-/// About a third of the contacts each separate, stick and slip.
+/// A full-rank problem, as finite elements make it.
 fn indenter(side: usize) -> ContactProblem {
     half_space(side, MU, 1e-2, 3e-3)
 }
