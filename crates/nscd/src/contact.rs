@@ -24,6 +24,8 @@ pub(crate) struct ContactMemory {
     forces: Vec<Vec<f64>>,
     /// `1 / trace W_cc` of each slave node of each interface [N/m].
     stiffness: Vec<Vec<f64>>,
+    /// How often in this step the search lost a pressed slave node.
+    lost: Vec<Vec<u8>>,
     /// Entries of a local vector.
     pub(crate) cone: usize,
     solver: SequenceSolver,
@@ -47,6 +49,11 @@ impl ContactMemory {
         Self {
             forces: sized(cone),
             stiffness: sized(1),
+            lost: model
+                .interfaces
+                .iter()
+                .map(|i| vec![0; i.slave.len()])
+                .collect(),
             cone,
             solver: SequenceSolver::default(),
             kept: None,
@@ -67,10 +74,28 @@ impl ContactMemory {
             .collect()
     }
 
+    /// A node on the rim of a master can be lost by the search in one iteration and found in the
+    /// next, for ever. One that was lost twice while pressed stays lost for the step.
+    pub(crate) fn settle_rims(&mut self, map: ContactMap) -> ContactMap {
+        let cone = self.cone;
+        for (interface, forces) in self.forces.iter().enumerate() {
+            for (slave_index, r) in forces.chunks_exact(cone).enumerate() {
+                let key = (interface, slave_index);
+                let found = |c: &Contact| (c.interface, c.slave_index);
+                if r[cone - 1] > 0.0 && map.contacts.binary_search_by_key(&key, found).is_err() {
+                    let lost = &mut self.lost[interface][slave_index];
+                    *lost = lost.saturating_add(1);
+                }
+            }
+        }
+        filtered(&map, |_, c| self.lost[c.interface][c.slave_index] < 2)
+    }
+
     /// Starts a step from the forces of the last accepted one.
     pub(crate) fn restore(&mut self, now: &State) {
         let cone = self.cone;
         self.clear();
+        self.lost.iter_mut().for_each(|l| l.fill(0));
         self.solved = false;
         for c in &now.contacts {
             for (i, &axis) in local_axes(cone).iter().enumerate() {

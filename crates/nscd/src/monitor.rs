@@ -14,6 +14,8 @@ const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 /// allowed one it may lie then.
 const STAGNATION: usize = 4;
 const CLOSE: f64 = 100.0;
+/// Contact problems with fewer rows are always solved to full accuracy.
+const FEW_ROWS: usize = 90;
 
 /// Balance and contact law at an iterate.
 #[derive(Debug, Clone, Copy)]
@@ -44,14 +46,10 @@ impl Check {
         }
     }
 
-    /// Accuracy that the next contact solve needs [-]: a hundredth of what the iterate has, since
-    /// the lagged tangent and the turning normals leave more than that.
-    pub(crate) fn contact_accuracy(&self) -> f64 {
-        if self.pending {
-            return 1e-3;
-        }
-        let reached = self.relative_residual().max(self.contact_error);
-        (0.01 * reached).clamp(0.01 * self.contact_tolerance, 1e-2)
+    /// How far the iterate is from being accepted: 1 is just there.
+    fn distance(&self) -> f64 {
+        let balance = self.residual / self.allowed.max(f64::MIN_POSITIVE);
+        balance.max(self.contact_error / self.contact_tolerance)
     }
 
     pub(crate) fn failure(&self, frame: &StepFrame<'_>, trial: &Trial) -> StepFailure {
@@ -80,6 +78,9 @@ pub(crate) struct Monitor {
     extent: f64,
     element_size: f64,
     largest_mass: f64,
+    last_distance: f64,
+    /// Whether the last correction helped and something is left that another one of its kind mends.
+    pub(crate) calm: bool,
     /// Largest residual of the last iterations \[N\].
     recent: [f64; STAGNATION],
 }
@@ -104,6 +105,8 @@ impl Monitor {
             extent,
             element_size: largest_element(model),
             largest_mass: largest(&model.mass.row_sums()),
+            last_distance: f64::MAX,
+            calm: true,
             recent: [f64::MAX; STAGNATION],
         }
     }
@@ -168,8 +171,27 @@ impl Monitor {
             contact_tolerance: settings.contact_tolerance,
             pending: trial.pending.is_some(),
         };
+        // Differences that are mostly noise make an extrapolation that leads astray.
+        let distance = check.distance();
+        self.calm = check.residual > check.allowed && distance < 0.5 * self.last_distance;
+        self.last_distance = distance;
         self.iteration += 1;
         Ok(check)
+    }
+
+    /// Accuracy that the next contact solve needs \[-\]: full where it is cheap or where the last
+    /// correction did not help (a small penetration beside wide gaps hides in a loose tolerance),
+    /// else a hundredth of what the iterate has, since the lagged tangent leaves more than that.
+    pub(crate) fn contact_accuracy(&self, check: &Check, contact_rows: usize) -> f64 {
+        let full = 0.01 * check.contact_tolerance;
+        if contact_rows < FEW_ROWS || !self.calm {
+            return full;
+        }
+        if check.pending {
+            return 1e-3;
+        }
+        let reached = check.relative_residual().max(check.contact_error);
+        (0.01 * reached).clamp(full, 1e-2)
     }
 
     /// Whether the residual has stopped falling so close above the allowed one that it can only be

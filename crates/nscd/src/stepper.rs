@@ -139,8 +139,15 @@ impl<'m> Stepper<'m> {
             if check.iteration == self.model.settings.newton_iterations {
                 return Err(check.failure(&frame, &trial));
             }
+            if !monitor.calm {
+                self.extrapolation.forget();
+            }
             self.refresh_tangents(&frame, &trial, &monitor)?;
-            let correction = self.correction(&frame, &trial, check.contact_accuracy())?;
+            let correction = self.correction(
+                &frame,
+                &trial,
+                monitor.contact_accuracy(&check, self.memory.rows()),
+            )?;
             self.apply(&frame, &mut trial, correction)?;
             self.counters.newton_iterations += 1;
         }
@@ -216,7 +223,8 @@ impl<'m> Stepper<'m> {
         self.book(Phase::Elements, start);
         if self.model.scheme.contact == ContactLevel::Position && !self.model.interfaces.is_empty()
         {
-            trial.map = self.detect(frame, &trial.u);
+            let found = self.detect(frame, &trial.u);
+            trial.map = self.memory.settle_rims(found);
         }
         trial.x = local_variable(frame, &trial.map, self.memory.cone, &trial.u, &trial.v);
         trial.r = self.memory.recall(&trial.map);

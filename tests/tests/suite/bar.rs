@@ -5,7 +5,7 @@
 
 use crate::common::{Run, run, scene, statistics};
 
-const E0: f64 = 5e-4;
+const E0: f64 = 5e-5;
 
 fn bar(sets: &[&str]) -> Run {
     let touching = ["mass=Lumped", "wall.master.point=(0, 0, 0)"];
