@@ -80,7 +80,7 @@ pub(crate) struct Monitor {
     largest_mass: f64,
     last_distance: f64,
     /// Whether the last correction helped and something is left that another one of its kind mends.
-    pub(crate) calm: bool,
+    calm: bool,
     /// Largest residual of the last iterations \[N\].
     recent: [f64; STAGNATION],
 }
@@ -171,7 +171,6 @@ impl Monitor {
             contact_tolerance: settings.contact_tolerance,
             pending: trial.pending.is_some(),
         };
-        // Differences that are mostly noise make an extrapolation that leads astray.
         let distance = check.distance();
         self.calm = check.residual > check.allowed && distance < 0.5 * self.last_distance;
         self.last_distance = distance;

@@ -139,9 +139,6 @@ impl<'m> Stepper<'m> {
             if check.iteration == self.model.settings.newton_iterations {
                 return Err(check.failure(&frame, &trial));
             }
-            if !monitor.calm {
-                self.extrapolation.forget();
-            }
             self.refresh_tangents(&frame, &trial, &monitor)?;
             let correction = self.correction(
                 &frame,

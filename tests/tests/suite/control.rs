@@ -103,7 +103,7 @@ fn a_step_that_is_too_long_is_cut_and_grown_again() {
     bodies: {"block": (mesh: Box(min: (0.0, 0.0, 0.0), max: (1.0, 1.0, 1.0), cells: (2, 2, 2)), material: "m")},
     motions: {
         "bottom": (nodes: "block.z_min"),
-        "top": (nodes: "block.z_max", motion: Move(rotation: Some((point: (0.5, 0.5, 0.0), axis: (0.0, 0.0, 1.0), angle: [(0.0, 0.0), (8.0, 4.0)])))),
+        "top": (nodes: "block.z_max", motion: Move(rotation: Some((point: (0.5, 0.5, 0.0), axis: (0.0, 0.0, 1.0), angle: [(0.0, 0.0), (8.0, 6.0)])))),
     },
     time: (end: 8.0, dt: 4.0, inertia: QuasiStatic),
     solver: (max_newton: Some(12)),
