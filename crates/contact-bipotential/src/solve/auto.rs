@@ -4,8 +4,8 @@ use crate::delassus::Delassus;
 use crate::problem::ContactProblem;
 use crate::solve::gauss_seidel::{Kernel, Sweeper};
 use crate::solve::iterate::{Iterate, Work};
-use crate::solve::newton::NewtonSystem;
-use crate::solve::proximal::{HARDLY_ANY, MODERATE, ProximalPlan, proximal};
+use crate::solve::newton::{NewtonSystem, newton};
+use crate::solve::proximal::{MODERATE, ProximalPlan, proximal};
 use crate::solve::uzawa::uzawa;
 use crate::solve::{Method, SolveSettings};
 use crate::truth::Truth;
@@ -14,6 +14,8 @@ use crate::truth::Truth;
 pub(crate) const LARGEST_ASSEMBLED: usize = 6000;
 /// A start with reactions and a smaller error is warm: no sweeps before Newton.
 const WARM: f64 = 0.1;
+/// Newton steps that a dense problem, likely of full rank, gets before it counts as hyperstatic.
+const PATIENCE: usize = 15;
 
 /// A few sweeps to find out who touches, then proximal Newton; where that is spent, more sweeps and a more careful Newton.
 pub(crate) fn auto<const D: usize>(
@@ -55,11 +57,13 @@ pub(crate) fn auto<const D: usize>(
         );
     }
     let mut system = NewtonSystem::<D>::new(problem, truth.scales());
-    let first = if dense { HARDLY_ANY } else { MODERATE };
+    if dense {
+        newton(truth, &mut system, best, tolerance, PATIENCE, work);
+    }
     let steps = settings.max_iterations / 10;
     let plans = [
         ProximalPlan {
-            alpha: first,
+            alpha: MODERATE,
             budget: steps / 2,
             ..ProximalPlan::default()
         },

@@ -1,7 +1,7 @@
 //! The linear step of a semismooth Newton method on the equation of Alart and Curnier \[Alart1991\].
 //!
 //! The unknown is `r`, with `v = W r + q + alpha w (r - centre)` (`alpha = 0` is the problem itself, `alpha > 0` a proximal
-//! point step), `w_c` the compliance scale and `rho = 1 / w_c`. Each contact is in one mode, by `z = r - rho v`:
+//! point step), `w_c` the compliance scale and `rho = 1 / ((1 + alpha) w_c)`. Each contact is in one mode, by `z = r - rho v`:
 //! free (`z_n <= 0`): `dr = -r`; stuck: `v + dv = 0`; sliding along `e = z_t / |z_t|`: `v_n + dv_n = 0`,
 //! `e.(r_t + dr_t) = mu (r_n + dr_n)`, and across, with `p` the other tangent, `beta = mu z_n / |z_t| < 1`:
 //! `beta p.dv_t + (1 - beta) w_c p.dr_t = -w_c p.r_t`. Free contacts leave the linear system, sliding ones keep two unknowns
@@ -145,11 +145,11 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
     }
 
     /// Sets the modes from `r` and `v`.
-    pub(crate) fn classify(&mut self, r: &[f64], v: &[f64]) {
+    pub(crate) fn classify(&mut self, r: &[f64], v: &[f64], alpha: f64) {
         for c in 0..self.modes.len() {
             self.modes[c] = Mode::of(
                 self.problem.mu[c],
-                self.scales[c],
+                (1.0 + alpha) * self.scales[c],
                 &load::<D>(r, c),
                 &load::<D>(v, c),
             );
@@ -205,7 +205,7 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
             for i in 0..D {
                 vc[i] += dv[i];
             }
-            let (mu, scale) = (self.problem.mu[c], self.scales[c]);
+            let (mu, scale) = (self.problem.mu[c], (1.0 + alpha) * self.scales[c]);
             let mut b = [0.0; D];
             match mode {
                 Mode::Free => b = rc,
@@ -269,7 +269,7 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
             }
         }
         self.assemble_dense(w, alpha);
-        let mut x = self.dense_right_side(r, v, &shifted);
+        let mut x = self.dense_right_side(r, v, &shifted, alpha);
         solve_dense(&mut self.dense.matrix, &mut x);
         dr.copy_from_slice(&known);
         for (&(c, k), x) in self.dense.unknowns.iter().zip(&x) {
@@ -282,7 +282,7 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
         true
     }
 
-    fn dense_right_side(&self, r: &[f64], v: &[f64], shifted: &[f64]) -> Vec<f64> {
+    fn dense_right_side(&self, r: &[f64], v: &[f64], shifted: &[f64], alpha: f64) -> Vec<f64> {
         let one = |&(c, k): &(u32, u8)| {
             let (c, k) = (c as usize, usize::from(k));
             let test = self.modes[c].test(k);
@@ -297,7 +297,7 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
                     }
                     let p = across(along);
                     -crate::local::dot(&test, &dv)
-                        - self.scales[c] * crate::local::dot(&p, &load::<D>(r, c))
+                        - (1.0 + alpha) * self.scales[c] * crate::local::dot(&p, &load::<D>(r, c))
                 }
                 _ => -crate::local::dot(&test, &moved),
             }
@@ -338,7 +338,7 @@ impl<'a, const D: usize> NewtonSystem<'a, D> {
                 }
             }
             if let (Mode::Slip { beta, .. }, 1) = (&self.modes[c], k) {
-                out[j] += (1.0 - beta) * self.scales[c];
+                out[j] += (1.0 - beta) * (1.0 + alpha) * self.scales[c];
             }
         }
     }
@@ -421,7 +421,7 @@ pub(crate) fn newton<const D: usize>(
         if best.is_within(tolerance) {
             return;
         }
-        system.classify(&x.r, &x.u);
+        system.classify(&x.r, &x.u, 0.0);
         work.newton_steps += 1;
         if !system.step(&x.r, &x.u, 0.0, &mut dr) {
             return;

@@ -3,15 +3,12 @@
 //! Each outer step solves the problem with `W + alpha diag(w_c)` instead of `W` and `q - alpha w_c r_k` instead of `q`, which
 //! has the same solutions at its fixed points, is never rank-deficient and, for large `alpha`, contractive enough for a
 //! plain Newton method. `alpha` is what a Newton step can stand: it falls fast while the inner
-//! iteration is easy, slowly while it works hard, and rises when it fails. Where `W` is regular the first try, with an
-//! `alpha` that hardly matters, already is Newton's method and converges quadratically.
+//! iteration is easy, slowly while it works hard, and rises when it fails.
 
 use crate::solve::iterate::{Iterate, Work};
 use crate::solve::newton::NewtonSystem;
 use crate::truth::Truth;
 
-/// The regularisation of a first try that assumes a well-posed problem.
-pub(crate) const HARDLY_ANY: f64 = 1e-6;
 /// The regularisation of a hyperstatic problem after a few sweeps.
 pub(crate) const MODERATE: f64 = 1e-3;
 /// Below this the rounding of `u`, magnified by `1 / alpha` in the null space of `W`, would flip contacts at random.
@@ -115,7 +112,7 @@ impl Inner<'_> {
         let target = (INNER_SHARE * x.errors.scale_free).max(0.1 * self.tolerance);
         let (mut last, mut rises) = (x.errors.scale_free, 0);
         for step in 1..=steps {
-            system.classify(&x.r, &v);
+            system.classify(&x.r, &v, self.alpha);
             if !system.step(&x.r, &v, self.alpha, &mut dr) {
                 return (self.centre.clone(), step, false);
             }

@@ -34,14 +34,16 @@ impl<const D: usize> BlockRows<D> for SparseRows<'_, D> {
             }
             Mode::Slip { along, beta } => {
                 let p = across(along);
+                let inverse_rho = (1.0 + self.alpha) * scale;
                 extra[D - 1][D - 1] = self.alpha * scale;
                 for i in 0..D - 1 {
-                    extra[0][i] = scale * along[i];
+                    extra[0][i] = inverse_rho * along[i];
                     if D == 3 {
-                        extra[1][i] = scale * (1.0 - beta + self.alpha * beta) * p[i];
+                        extra[1][i] =
+                            ((1.0 - beta) * inverse_rho + self.alpha * beta * scale) * p[i];
                     }
                 }
-                extra[0][D - 1] = -scale * self.mu[c];
+                extra[0][D - 1] = -inverse_rho * self.mu[c];
             }
         }
         put(c, &extra);
