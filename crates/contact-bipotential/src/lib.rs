@@ -36,5 +36,5 @@ pub use obstacle::{Obstacle, Shape};
 pub use problem::ContactProblem;
 pub use rcc::{Adhesion, Bond, BondStep};
 pub use solve::sequence::SequenceSolver;
-pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve};
+pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve, solve_bonded};
 pub use truth::{Errors, errors};
