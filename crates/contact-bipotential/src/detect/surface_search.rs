@@ -96,6 +96,8 @@ pub(super) struct SurfaceSearch {
     /// Rim sides (facet, side) at each surface node: `rims[rim_starts[i]..rim_starts[i + 1]]`.
     rim_starts: Vec<usize>,
     rims: Vec<(u32, u8)>,
+    /// Surface indices of the nodes on the axis of symmetry.
+    axis: Vec<usize>,
     points: Vec<Vec3>,
     normals: Vec<Vec3>,
     boxes: Vec<Extent>,
@@ -132,12 +134,26 @@ impl SurfaceSearch {
             rim_sides,
             rim_starts,
             rims,
+            axis: Vec::new(),
             points: Vec::new(),
             normals: Vec::new(),
             boxes: Vec::new(),
             tree: None,
             workspace: BvhWorkspace::default(),
         }
+    }
+
+    /// Continues a chain across x = 0 by its mirror image: its ends there are no rims, and their normals run along y.
+    pub(super) fn mirror_at_axis(&mut self, is_on_axis: impl Fn(u32) -> bool) {
+        let on_axis: Vec<bool> = self.nodes.iter().map(|node| is_on_axis(*node)).collect();
+        for ((corners, count), mask) in self.facets.iter().zip(&mut self.rim_sides) {
+            for (k, corner) in corners[..*count as usize].iter().enumerate() {
+                *mask &= !(u8::from(on_axis[*corner as usize]) << k);
+            }
+        }
+        (self.rim_starts, self.rims) =
+            rims_at_nodes(&self.facets, &self.rim_sides, self.nodes.len());
+        self.axis = (0..on_axis.len()).filter(|i| on_axis[*i]).collect();
     }
 
     /// Reads the surface's positions out of the flat array of the mesh.
@@ -187,6 +203,10 @@ impl SurfaceSearch {
     /// Unit normals at the surface nodes, by surface index.
     pub(super) fn set_normals(&mut self, normals: Vec<Vec3>) {
         self.normals = normals;
+        for i in &self.axis {
+            let along = [0.0, self.normals[*i][1], 0.0];
+            self.normals[*i] = unit(along).unwrap_or([0.0; 3]);
+        }
     }
 
     /// Facets that may be closest to `x`, with the squared distances of their boxes; a superset.
