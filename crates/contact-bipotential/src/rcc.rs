@@ -258,11 +258,16 @@ impl BondStep {
         &self.start
     }
 
+    /// Whether a pair at the gap `x_n` \[m\] touches, so that bonds can form.
+    pub fn touches(&self, gap: f64) -> bool {
+        gap <= self.touching
+    }
+
     /// Whether there is a bond at the start, or one may form at the gap `x_n` \[m\].
     pub fn may_act(&self, gap: f64) -> bool {
         self.area > 0.0
             && (self.start.intensity > 0.0
-                || self.law.healing == Healing::Recoverable && gap <= self.touching)
+                || self.law.healing == Healing::Recoverable && self.touches(gap))
     }
 
     /// `mu` at the intensity `beta`, where `mu` is that of the bare surfaces \[-\].
@@ -316,7 +321,7 @@ impl BondStep {
             Update::SecondOrder if law.viscosity == 0.0 => rate_independent(law.energy, k),
             Update::SecondOrder => self.exponential(k),
         };
-        let heals = law.healing == Healing::Recoverable && x[2] <= self.touching;
+        let heals = law.healing == Healing::Recoverable && self.touches(x[2]);
         let most = if heals { 1.0 } else { start };
         if free >= most {
             (most, 0.0)
@@ -408,7 +413,7 @@ impl BondStep {
     pub fn finish(&self, x: &[f64; 3]) -> Bond {
         let (separation, gap) = self.end(x);
         let intensity = self.intensity(x).0;
-        if gap > self.touching && intensity < self.law.threshold {
+        if !self.touches(gap) && intensity < self.law.threshold {
             return Bond {
                 gap,
                 ..Bond::default()

@@ -90,7 +90,7 @@ impl<'a> Truth<'a> {
         };
         let at = bond.at(&spatial(u));
         let mut dry = *r;
-        for (i, axis) in local_axes::<D>().iter().enumerate() {
+        for (i, axis) in local_axes(D).iter().enumerate() {
             dry[i] -= at.force[*axis];
         }
         Dry {

@@ -173,7 +173,7 @@ fn bond_force<const D: usize>(bond: &BondStep, beta: f64, u: &Vector<D>) -> Vect
 fn spring<const D: usize>(bond: &BondStep, beta: f64) -> (Vector<D>, Vector<D>) {
     let (stiffness, offset) = bond.spring(beta);
     let (mut d, mut shift) = ([0.0; D], [0.0; D]);
-    for (i, axis) in local_axes::<D>().iter().enumerate() {
+    for (i, axis) in local_axes(D).iter().enumerate() {
         (d[i], shift[i]) = (stiffness[*axis], offset[*axis]);
     }
     (d, shift)

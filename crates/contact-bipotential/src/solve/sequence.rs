@@ -247,9 +247,9 @@ struct BondTangent<const D: usize> {
 impl<const D: usize> BondTangent<D> {
     fn new(dry: &Dry<D>) -> Self {
         let (mut stiffness, mut friction) = ([[0.0; D]; D], [0.0; D]);
-        for (i, a) in local_axes::<D>().iter().enumerate() {
+        for (i, a) in local_axes(D).iter().enumerate() {
             friction[i] = dry.mu_slope * dry.bond.intensity_slope[*a];
-            for (j, b) in local_axes::<D>().iter().enumerate() {
+            for (j, b) in local_axes(D).iter().enumerate() {
                 stiffness[i][j] = dry.bond.stiffness[*a][*b];
             }
         }
