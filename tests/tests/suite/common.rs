@@ -31,7 +31,7 @@ pub(crate) struct Step {
 
 impl Step {
     pub(crate) fn energy(&self) -> f64 {
-        self.state.kinetic_energy + self.state.strain_energy
+        self.state.kinetic_energy + self.state.strain_energy + self.state.adhesive_energy
     }
 }
 
@@ -75,7 +75,11 @@ impl Observer for Recorder {
 
 /// Builds and runs a scene; a run that stops early is not an error here.
 pub(crate) fn try_run(loaded: &LoadedScene) -> Run {
-    let built = build(loaded).unwrap_or_else(|e| panic!("{e}"));
+    try_run_built(build(loaded).unwrap_or_else(|e| panic!("{e}")))
+}
+
+/// The same for a model that the test has changed.
+pub(crate) fn try_run_built(built: Built) -> Run {
     let mut recorder = Recorder::default();
     let mut totals = Totals::default();
     let (start, end, counters) = {
@@ -134,7 +138,8 @@ impl Run {
 
     /// Fails unless every step is converged and its energy audit closes to `share` of `scale` [J].
     pub(crate) fn assert_audited(&self, scale: f64, share: f64) {
-        let mut before = self.start.kinetic_energy + self.start.strain_energy;
+        let start = &self.start;
+        let mut before = start.kinetic_energy + start.strain_energy + start.adhesive_energy;
         for step in &self.steps {
             let (t, report) = (step.report.time, &step.report);
             assert!(
@@ -148,7 +153,8 @@ impl Run {
                 "t = {t}: the audit leaves {open:e} J of {scale:e} J"
             );
             // The terms are increments; together they must be the energy of the state, too.
-            let change = step.energy() - before - report.energy.kinetic - report.energy.strain;
+            let told = report.energy.kinetic + report.energy.strain + report.energy.adhesive;
+            let change = step.energy() - before - told;
             assert!(
                 change.abs() <= share * scale,
                 "t = {t}: {change:e} J are in the state and not in the report"

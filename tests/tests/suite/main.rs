@@ -6,6 +6,7 @@
 
 mod common;
 
+mod adhesion;
 mod bar;
 mod control;
 mod convergence;
