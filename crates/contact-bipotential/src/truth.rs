@@ -146,14 +146,13 @@ impl<'a> Truth<'a> {
         for c in 0..self.problem.contacts() {
             let root = self.roots[c];
             let (uc, qc) = (load::<D>(u, c), load::<D>(&self.problem.q, c));
-            let Dry { mu, r: rc, .. } = self.dry(c, &load::<D>(r, c), &uc);
-            raw.add(mu, &scaled(&rc, k), &scaled(&uc, k), &scaled(&qc, k));
-            free.add(
-                mu,
-                &scaled(&rc, e * root),
-                &scaled(&uc, e / root),
-                &scaled(&qc, e / root),
-            );
+            let rc = load::<D>(r, c);
+            let dry = self.dry(c, &rc, &uc);
+            for (sums, up, down) in [(&mut raw, k, k), (&mut free, e * root, e / root)] {
+                let (u, q) = (scaled(&uc, down), scaled(&qc, down));
+                sums.add(dry.mu, &scaled(&dry.r, up), &u, &q);
+                sums.add_whole(&scaled(&rc, up));
+            }
         }
         let errors = Errors {
             siconos: raw.error(),
@@ -255,10 +254,15 @@ impl Sums {
     fn add<const D: usize>(&mut self, mu: f64, r: &Vector<D>, u: &Vector<D>, q: &Vector<D>) {
         let f = natural_map(mu, 1.0, u, r);
         self.f += dot(&f, &f);
-        self.r += dot(r, r);
         self.u += dot(u, u);
         self.q += dot(q, q);
         self.gap += bipotential_gap(mu, u, r).abs();
+    }
+
+    /// The whole reaction, bond and all: what `F` was rounded with.
+    #[inline(always)]
+    fn add_whole<const D: usize>(&mut self, r: &Vector<D>) {
+        self.r += dot(r, r);
     }
 
     fn error(&self) -> f64 {
