@@ -85,7 +85,11 @@ fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
             cells,
             grading,
             element,
-        } = &body.mesh;
+        } = &body.mesh
+        else {
+            let message = "only Box can be built";
+            return Err(loaded.refuse(&format!("bodies.{name}.mesh"), message));
+        };
         let kind = match element {
             spec::Element::Hex8 => CellKind::Hex8,
             spec::Element::Tet4 => CellKind::Tet4,
@@ -252,6 +256,9 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
             Master::Obstacle(obstacle.map_err(|e| e.to_string())?)
         }
     };
+    if let Some(given) = given.search_distance {
+        reach = given;
+    }
     let mut interface = Interface::new(name, slave.nodes.clone(), area, master, reach);
     interface.rim_tolerance = RIM_TOLERANCE;
     interface.mu = given.mu;

@@ -64,7 +64,7 @@ fn the_small_scene_is_fine_and_defaults_hold() {
         (1, 0.5, 0.5)
     );
     assert_eq!(scene.size().elements, 8);
-    assert_eq!(scene.size().dofs(), 81);
+    assert_eq!(scene.size().dofs, 81);
     assert_eq!(scene.step_count(), 10);
     let Motion::Move {
         translation,
