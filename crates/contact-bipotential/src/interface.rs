@@ -4,6 +4,7 @@ use fe_core::Surface;
 use thiserror::Error;
 
 use crate::obstacle::Obstacle;
+use crate::rcc::Adhesion;
 
 /// What slave nodes may touch.
 #[derive(Clone, Debug)]
@@ -37,6 +38,8 @@ pub struct Interface {
     /// of the facet [-], >= 0. Enough for bodies with flush sides to stay in contact through round-off;
     /// larger values keep flush sides that bulge differently together, at the price of a ledge that wide.
     pub rim_tolerance: f64,
+    /// Adhesion; `None` where the surfaces do not stick together.
+    pub adhesion: Option<Adhesion>,
 }
 
 /// Default of [`Interface::rim_tolerance`] [-].
@@ -60,6 +63,7 @@ impl Interface {
             restitution: 0.0,
             search_distance,
             rim_tolerance: RIM_TOLERANCE,
+            adhesion: None,
         }
     }
 
@@ -135,7 +139,13 @@ impl Interface {
                 });
             }
         }
-        Ok(())
+        match self.adhesion.map(Adhesion::validated) {
+            Some(Err(e)) => Err(GeometryError::Interface {
+                interface: self.name.clone(),
+                reason: e.to_string(),
+            }),
+            _ => Ok(()),
+        }
     }
 
     fn validate_surface(

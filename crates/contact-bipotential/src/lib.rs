@@ -18,6 +18,7 @@ pub mod law;
 pub mod local;
 pub mod obstacle;
 pub mod problem;
+pub mod rcc;
 pub mod solve;
 pub mod truth;
 
@@ -33,6 +34,7 @@ pub use kinematics::{CompliancePart, Contact, ContactMap, Stencil};
 pub use law::{ContactDiagnostic, Status};
 pub use obstacle::{Obstacle, Shape};
 pub use problem::ContactProblem;
+pub use rcc::{Adhesion, Bond, BondStep};
 pub use solve::sequence::SequenceSolver;
 pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve};
 pub use truth::{Errors, errors};

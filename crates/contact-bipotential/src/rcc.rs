@@ -1,0 +1,467 @@
+//! Adhesion that breaks and heals: the law of Raous, Cangemi and Cocou at one contact node \[Raous1999, Hu2022\].
+//!
+//! Free energy `beta^2 k / 2 - w beta` and viscous dissipation `b beta'^2` per area, with
+//! `k = C_n x_n^2 + C_t |u_t|^2`: the bond pulls with `-beta^2 (C_t u_t, C_n x_n)`, and `b beta' = w - k beta` within
+//! `0 <= beta <= 1`. `u_t` is the separation since bonding, `x_n` the gap. Everything here is pure: a [`BondStep`] is asked
+//! as often as an iteration likes and changes nothing.
+
+mod update;
+
+use crate::interface::GeometryError;
+
+use update::{blend, blend_slope, decay_mean, decay_mean_slope};
+
+/// Whether broken bonds form again.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Healing {
+    /// `beta` rises again in contact \[Hu2022\].
+    #[default]
+    Recoverable,
+    /// `beta` never rises \[Raous1999\].
+    Irreversible,
+}
+
+/// What the tangential separation is measured from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Reference {
+    /// The place of bonding; forgotten when the pair parts with a broken bond.
+    #[default]
+    Reset,
+    /// New bonds are unstressed: while bonds can form, the reference follows at the rate `w / (b beta)`.
+    Ageing,
+}
+
+/// How `beta` and the bond force are integrated over a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Update {
+    /// Exact for a constant `k`, second order in `beta`, stiffly accurate; the force is that of the end of the step.
+    #[default]
+    SecondOrder,
+    /// Midpoint pair: the discrete energy balance of the bond is exact. Needs `b > 0`.
+    EnergyConsistent,
+}
+
+/// Parameters of the adhesion of an interface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Adhesion {
+    /// `C_n`: force per area and gap of intact bonds [N/m^3], >= 0.
+    pub normal_stiffness: f64,
+    /// `C_t` along `t1` and `t2`: force per area and separation of intact bonds [N/m^3], >= 0.
+    pub tangential_stiffness: [f64; 2],
+    /// `w`: work per area that separation takes [J/m^2], >= 0.
+    pub energy: f64,
+    /// `b`: viscosity of breaking and healing [N s/m], >= 0; 0 is the rate-independent limit.
+    pub viscosity: f64,
+    /// `epsilon`: below this intensity a bond that has parted counts as broken \[-\], in (0, 1).
+    pub threshold: f64,
+    /// Gap up to which bonds form \[m\], >= 0.
+    pub healing_gap: f64,
+    /// `beta` at the start of the pairs that touch then \[-\], in [0, 1].
+    pub initial: f64,
+    /// Whether broken bonds form again.
+    pub healing: Healing,
+    /// What the tangential separation is measured from.
+    pub reference: Reference,
+    /// How a step is integrated.
+    pub update: Update,
+    /// Coulomb coefficient of intact bonds \[-\], >= 0; between it and that of the interface `mu` is linear in `beta`.
+    pub bonded_friction: Option<f64>,
+}
+
+impl Adhesion {
+    /// Recoverable adhesion with the defaults of \[Hu2022\]: bonds start at zero and form in contact only.
+    pub fn new(normal: f64, tangential: f64, energy: f64, viscosity: f64) -> Self {
+        Self {
+            normal_stiffness: normal,
+            tangential_stiffness: [tangential; 2],
+            energy,
+            viscosity,
+            threshold: 1e-4,
+            healing_gap: 0.0,
+            initial: 0.0,
+            healing: Healing::Recoverable,
+            reference: Reference::Reset,
+            update: Update::SecondOrder,
+            bonded_friction: None,
+        }
+    }
+
+    /// The same parameters, checked.
+    ///
+    /// # Errors
+    /// [`GeometryError::Parameter`] with the bound that is violated.
+    pub fn validated(self) -> Result<Self, GeometryError> {
+        let [t1, t2] = self.tangential_stiffness;
+        let not_negative = "must be >= 0 and finite";
+        let bounded = [
+            ("C_n [N/m^3]", self.normal_stiffness, f64::MAX, not_negative),
+            ("C_t [N/m^3]", t1, f64::MAX, not_negative),
+            ("C_t [N/m^3]", t2, f64::MAX, not_negative),
+            ("w [J/m^2]", self.energy, f64::MAX, not_negative),
+            ("b [N s/m]", self.viscosity, f64::MAX, not_negative),
+            ("healing gap [m]", self.healing_gap, f64::MAX, not_negative),
+            ("initial beta [-]", self.initial, 1.0, "must lie in [0, 1]"),
+            (
+                "mu of intact bonds [-]",
+                self.bonded_friction.unwrap_or(0.0),
+                f64::MAX,
+                not_negative,
+            ),
+        ];
+        for (name, value, most, bound) in bounded {
+            if !(value >= 0.0 && value <= most) {
+                return Err(GeometryError::Parameter { name, value, bound });
+            }
+        }
+        let refuse = |name, value, bound| Err(GeometryError::Parameter { name, value, bound });
+        if !(self.threshold > 0.0 && self.threshold < 1.0) {
+            let bound = "must lie between 0 and 1, both excluded";
+            return refuse("epsilon [-]", self.threshold, bound);
+        }
+        if self.energy > 0.0 && self.normal_stiffness == 0.0 && t1.max(t2) == 0.0 {
+            let bound = "must be > 0 where w > 0: bonds without stiffness never break";
+            return refuse("C_n and C_t [N/m^3]", 0.0, bound);
+        }
+        if self.healing == Healing::Irreversible && self.healing_gap > 0.0 {
+            let bound = "must be 0 where bonds do not heal";
+            return refuse("healing gap [m]", self.healing_gap, bound);
+        }
+        if self.update == Update::EnergyConsistent && self.viscosity == 0.0 {
+            let bound = "must be > 0 for the energy-consistent update";
+            return refuse("b [N s/m]", self.viscosity, bound);
+        }
+        Ok(self)
+    }
+
+    /// `sqrt(w / C_n)`: the gap at which intact bonds start to break \[m\].
+    pub fn damage_gap(&self) -> f64 {
+        let stiffness = self
+            .tangential_stiffness
+            .iter()
+            .fold(self.normal_stiffness, |m, c| m.max(*c));
+        if stiffness > 0.0 {
+            (self.energy / stiffness).sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// Whether bonds resist slip.
+    pub fn is_tangential(&self) -> bool {
+        self.tangential_stiffness != [0.0; 2]
+    }
+
+    /// `k` [J/m^2].
+    fn strain(&self, separation: &[f64; 2], gap: f64) -> f64 {
+        let [t1, t2] = self.tangential_stiffness;
+        self.normal_stiffness * gap * gap
+            + t1 * separation[0] * separation[0]
+            + t2 * separation[1] * separation[1]
+    }
+}
+
+/// The bond of a slave node between two steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bond {
+    /// `beta` \[-\], 0 broken, 1 intact.
+    pub intensity: f64,
+    /// `x_n`, not negative \[m\].
+    pub gap: f64,
+    /// `u_t` along `t1` and `t2` \[m\].
+    pub separation: [f64; 2],
+}
+
+impl Bond {
+    /// Free energy of the bond \[J\] on an area [m^2].
+    pub fn energy(&self, law: &Adhesion, area: f64) -> f64 {
+        let (beta, k) = (self.intensity, law.strain(&self.separation, self.gap));
+        area * beta * (0.5 * beta * k - law.energy)
+    }
+}
+
+/// One bond over one step: all that is known before the end position is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondStep {
+    law: Adhesion,
+    area: f64,
+    dt: f64,
+    start: Bond,
+    /// Gap up to which a pair counts as touching \[m\]: the healing gap and the round-off of positions.
+    touching: f64,
+    /// Share of the separation that ageing leaves.
+    kept: f64,
+}
+
+/// A bond at one end position of a step; local axes `(t1, t2, n)`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BondPoint {
+    /// `beta` at the end \[-\].
+    pub intensity: f64,
+    /// Bond force on the slave \[N\]: it pulls the slave back.
+    pub force: [f64; 3],
+    /// Minus the derivative of the force with respect to `(dx_t, x_n)` [N/m]; not symmetric, may be indefinite where the bond
+    /// softens.
+    pub stiffness: [[f64; 3]; 3],
+}
+
+/// Energies of a bond over one step \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BondEnergy {
+    /// Change of the free energy.
+    pub stored: f64,
+    /// Dissipated by breaking, healing and ageing, >= 0.
+    pub dissipated: f64,
+    /// Work that the bond force took over the step.
+    pub work: f64,
+}
+
+impl BondStep {
+    /// A step of `dt` \[s\] of a bond on an `area` [m^2]; `roundoff` is the error of a gap \[m\].
+    pub fn new(law: &Adhesion, area: f64, dt: f64, start: Bond, roundoff: f64) -> Self {
+        let touching = law.healing_gap + roundoff;
+        let ages = law.reference == Reference::Ageing && start.gap <= touching;
+        let formed = dt * law.energy;
+        let old = law.viscosity * start.intensity;
+        Self {
+            law: *law,
+            area,
+            dt,
+            start,
+            touching,
+            kept: if ages && formed > 0.0 {
+                old / (old + formed)
+            } else {
+                1.0
+            },
+        }
+    }
+
+    /// A contact without adhesion.
+    pub fn none() -> Self {
+        Self::new(
+            &Adhesion::new(0.0, 0.0, 0.0, 0.0),
+            0.0,
+            0.0,
+            Bond::default(),
+            0.0,
+        )
+    }
+
+    /// The bond at the start of the step.
+    pub fn start(&self) -> &Bond {
+        &self.start
+    }
+
+    /// Whether there is a bond at the start, or one may form at the gap `x_n` \[m\].
+    pub fn may_act(&self, gap: f64) -> bool {
+        self.area > 0.0
+            && (self.start.intensity > 0.0
+                || self.law.healing == Healing::Recoverable && gap <= self.touching)
+    }
+
+    /// `mu` at the intensity `beta`, where `mu` is that of the bare surfaces \[-\].
+    pub fn friction(&self, mu: f64, beta: f64) -> f64 {
+        let bonded = self.law.bonded_friction.filter(|_| self.area > 0.0);
+        bonded.map_or(mu, |bonded| mu + (bonded - mu) * beta)
+    }
+
+    /// `(u_t1, x_n)` at the end position `x = (dx_t, x_n)`.
+    fn end(&self, x: &[f64; 3]) -> ([f64; 2], f64) {
+        let u = self.start.separation;
+        let separation = [0, 1].map(|i| self.kept * (u[i] + x[i]));
+        (separation, x[2].max(0.0))
+    }
+
+    /// The `k` that stands for the whole step, and its derivative with respect to that at the end.
+    fn mean_strain(&self, x: &[f64; 3]) -> (f64, f64) {
+        let (separation, gap) = self.end(x);
+        let k1 = self.law.strain(&separation, gap);
+        let k0 = self.law.strain(&self.start.separation, self.start.gap);
+        match self.law.update {
+            Update::EnergyConsistent => (0.5 * (k0 + k1), 0.5),
+            // A pair without bonds has no strained ones on its way into contact.
+            Update::SecondOrder if self.start.intensity == 0.0 || self.law.viscosity == 0.0 => {
+                (k1, 1.0)
+            }
+            Update::SecondOrder => {
+                let rate = self.dt / self.law.viscosity;
+                let (z, change) = (0.5 * rate * (k0 + k1), k1 - k0);
+                let share = blend(z);
+                let slope = share + 0.5 * rate * blend_slope(z) * change;
+                (k0 + share * change, slope)
+            }
+        }
+    }
+
+    /// `beta` at the end position `x = (dx_t, x_n)` \[m\], and its derivative with respect to the `k` there.
+    pub fn intensity(&self, x: &[f64; 3]) -> (f64, f64) {
+        let (start, law) = (self.start.intensity, &self.law);
+        if self.area == 0.0 {
+            return (0.0, 0.0);
+        }
+        let (k, k_slope) = self.mean_strain(x);
+        let (free, slope) = match law.update {
+            Update::EnergyConsistent => self.midpoint(k),
+            Update::SecondOrder if law.viscosity == 0.0 => rate_independent(law.energy, k),
+            Update::SecondOrder => self.exponential(k),
+        };
+        let heals = law.healing == Healing::Recoverable && x[2] <= self.touching;
+        let most = if heals { 1.0 } else { start };
+        if free >= most {
+            (most, 0.0)
+        } else if free <= 0.0 {
+            (0.0, 0.0)
+        } else {
+            (free, slope * k_slope)
+        }
+    }
+
+    /// `beta0 e^-z + (w dt / b) (1 - e^-z) / z`, `z = k dt / b`, and its derivative with respect to `k`.
+    fn exponential(&self, k: f64) -> (f64, f64) {
+        let rate = self.dt / self.law.viscosity;
+        let (z, source, start) = (k * rate, self.law.energy * rate, self.start.intensity);
+        let decay = (-z).exp();
+        let beta = start * decay + source * decay_mean(z);
+        (beta, (source * decay_mean_slope(z) - start * decay) * rate)
+    }
+
+    /// `b (beta1 - beta0) / dt = w - k (beta0 + beta1) / 2`, and its derivative with respect to `k`.
+    fn midpoint(&self, k: f64) -> (f64, f64) {
+        let (b, start) = (self.law.viscosity / self.dt, self.start.intensity);
+        let beta = ((b - 0.5 * k) * start + self.law.energy) / (b + 0.5 * k);
+        (beta, -0.5 * (start + beta) / (b + 0.5 * k))
+    }
+
+    /// For the intensity `beta` at the end the force is `-D (x + shift)`: the diagonal `D` [N/m] and the shift \[m\]
+    /// (`(I + W D)^-1 W` is then the compliance that friction sees). Valid for `x_n >= 0`.
+    pub fn spring(&self, beta: f64) -> ([f64; 3], [f64; 3]) {
+        let [t1, t2] = self.law.tangential_stiffness;
+        let c = [self.kept * t1, self.kept * t2, self.law.normal_stiffness];
+        let (u, start) = (self.start.separation, self.start.intensity);
+        match self.law.update {
+            Update::SecondOrder => {
+                let factor = self.area * beta * beta;
+                (c.map(|c| factor * c), [u[0], u[1], 0.0])
+            }
+            Update::EnergyConsistent => {
+                let factor = 0.25 * self.area * (start * start + beta * beta);
+                let back = 1.0 + 1.0 / self.kept.max(f64::MIN_POSITIVE);
+                let shift = [back * u[0], back * u[1], self.start.gap];
+                (c.map(|c| factor * c), shift)
+            }
+        }
+    }
+
+    /// The bond at the end position `x = (dx_t, x_n)` \[m\]. A penetration of an iterate counts as no gap.
+    pub fn at(&self, x: &[f64; 3]) -> BondPoint {
+        let (intensity, slope) = self.intensity(x);
+        let (mut d, shift) = self.spring(intensity);
+        let (per_square, _) = self.spring_of_unit();
+        let (separation, gap) = self.end(x);
+        let open = x[2] > 0.0;
+        let stretch = [x[0] + shift[0], x[1] + shift[1], gap + shift[2]];
+        let force = [0, 1, 2].map(|i| -d[i] * stretch[i]);
+        if !open {
+            d[2] = 0.0;
+        }
+        let [t1, t2] = self.law.tangential_stiffness;
+        let k_slope = [
+            2.0 * t1 * self.kept * separation[0],
+            2.0 * t2 * self.kept * separation[1],
+            2.0 * self.law.normal_stiffness * gap,
+        ];
+        let mut stiffness = [[0.0; 3]; 3];
+        for i in 0..3 {
+            stiffness[i][i] = d[i];
+            for j in 0..3 {
+                let softening = 2.0 * intensity * per_square[i] * stretch[i];
+                stiffness[i][j] += softening * slope * k_slope[j];
+            }
+        }
+        BondPoint {
+            intensity,
+            force,
+            stiffness,
+        }
+    }
+
+    /// Derivative of `D` with respect to `beta^2`.
+    fn spring_of_unit(&self) -> ([f64; 3], [f64; 3]) {
+        let ((one, shift), (zero, _)) = (self.spring(1.0), self.spring(0.0));
+        ([0, 1, 2].map(|i| one[i] - zero[i]), shift)
+    }
+
+    /// The bond after the step that ended at `x`; one that has parted and is weaker than the threshold is forgotten.
+    pub fn finish(&self, x: &[f64; 3]) -> Bond {
+        let (separation, gap) = self.end(x);
+        let intensity = self.intensity(x).0;
+        if gap > self.touching && intensity < self.law.threshold {
+            return Bond {
+                gap,
+                ..Bond::default()
+            };
+        }
+        Bond {
+            intensity,
+            gap,
+            separation,
+        }
+    }
+
+    /// Energies of the step that ended at `x`. Work minus stored minus dissipated is the error of the integration: zero for
+    /// [`Update::EnergyConsistent`] without ageing.
+    pub fn energy(&self, x: &[f64; 3]) -> BondEnergy {
+        let (separation, gap) = self.end(x);
+        let (b0, b1) = (self.start.intensity, self.intensity(x).0);
+        let end = Bond {
+            intensity: b1,
+            gap,
+            separation,
+        };
+        let (k, _) = self.mean_strain(x);
+        // The integral of (w - k beta) d beta, whose integrand has the sign of d beta on the way.
+        let broken = (b1 - b0) * (self.law.energy - 0.5 * k * (b1 + b0));
+        let stretched = [0, 1].map(|i| separation[i] / self.kept.max(f64::MIN_POSITIVE));
+        let aged = self.law.strain(&stretched, gap) - self.law.strain(&separation, gap);
+        let aged = if self.kept < 1.0 && self.kept > 0.0 {
+            0.5 * b1 * b1 * aged
+        } else {
+            0.0
+        };
+        let force = self.at(x).force;
+        let work = -(force[0] * x[0] + force[1] * x[1] + force[2] * (gap - self.start.gap));
+        BondEnergy {
+            stored: end.energy(&self.law, self.area) - self.start.energy(&self.law, self.area),
+            dissipated: (self.area * (broken + aged)).max(0.0),
+            work,
+        }
+    }
+
+    /// Whether more than one end position may satisfy the law: the bond softens faster than both viscosity over `dt` and the
+    /// body of local stiffness `stiffness` [N/m] can follow.
+    pub fn may_snap(&self, x: &[f64; 3], stiffness: f64) -> bool {
+        let (separation, gap) = self.end(x);
+        let c = self
+            .law
+            .tangential_stiffness
+            .iter()
+            .fold(self.law.normal_stiffness, |m, c| m.max(*c));
+        let b0 = self.start.intensity;
+        let broke = self.intensity(x).0 < b0;
+        broke
+            && 3.0 * self.law.strain(&separation, gap) * self.dt > self.law.viscosity
+            && 3.0 * c * b0 * b0 * self.area > stiffness
+    }
+}
+
+/// `min(1, w / k)` and its derivative.
+fn rate_independent(w: f64, k: f64) -> (f64, f64) {
+    if w >= k {
+        (1.0, 0.0)
+    } else {
+        (w / k, -w / (k * k))
+    }
+}
+
+#[cfg(test)]
+mod tests;
