@@ -272,7 +272,7 @@ fn run(
         Status::Completed => Ok(ExitCode::SUCCESS),
         Status::Stopped => {
             eprintln!(
-                "error: the run stopped: {}",
+                "error: {}",
                 summary.reason.as_deref().unwrap_or("no reason given")
             );
             Ok(ExitCode::from(STOPPED))

@@ -51,7 +51,7 @@ pub enum Mesh {
         center: [f64; 3],
         /// Radius \[m\].
         radius: f64,
-        /// Cells on a quarter of a great circle before `refine` \[-\].
+        /// Cells on a quarter of a great circle before `refine` \[-\], raised to an even number.
         cells: usize,
         /// Which half.
         pole: Pole,
@@ -71,14 +71,17 @@ pub enum Mesh {
         #[serde(default)]
         element: PlaneElement,
     },
-    /// Disc of quadrilaterals. Set `rim`, node set `center` (the node nearest the centre).
+    /// Disc. Set `rim`, node set `center` (the node nearest the centre).
     Disc {
         /// Centre \[m\].
         center: [f64; 2],
         /// Radius \[m\].
         radius: f64,
-        /// Cells on a quarter of the rim before `refine` \[-\].
+        /// Cells on a quarter of the rim before `refine` \[-\]; an even number has nodes at the centre and at the poles.
         cells: usize,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
     },
     /// Half of a disc of quadrilaterals; its flat side is normal to y. Sets `dome`, `base`.
     HalfDisc {
@@ -86,7 +89,7 @@ pub enum Mesh {
         center: [f64; 2],
         /// Radius \[m\].
         radius: f64,
-        /// Cells on a quarter of the rim before `refine` \[-\].
+        /// Cells on a quarter of the rim before `refine` \[-\], raised to an even number.
         cells: usize,
         /// Which half.
         pole: Pole,
@@ -98,7 +101,7 @@ pub enum Mesh {
         center: [f64; 2],
         /// Radius \[m\].
         radius: f64,
-        /// Cells on the quarter of the rim before `refine` \[-\].
+        /// Cells on the quarter of the rim before `refine` \[-\], raised to an even number.
         cells: usize,
         /// Which quarter.
         pole: Pole,
@@ -149,6 +152,15 @@ pub enum PlaneElement {
     Tri3,
 }
 
+impl PlaneElement {
+    fn per_quadrilateral(self) -> f64 {
+        match self {
+            PlaneElement::Quad4 => 1.0,
+            PlaneElement::Tri3 => 2.0,
+        }
+    }
+}
+
 /// Where the dome of a half body points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -178,43 +190,54 @@ impl Mesh {
 
     /// Counts of the mesh with each cell count multiplied by `refine`.
     pub fn size(&self, refine: usize) -> MeshSize {
-        let fine = |n: usize| n.saturating_mul(refine);
-        let product = |n: &[usize]| n.iter().copied().fold(1, usize::saturating_mul);
-        let lattice = |cells: &[usize], per_cell: usize| {
-            let nodes: Vec<usize> = cells.iter().map(|c| c.saturating_add(1)).collect();
-            (product(&nodes), product(cells).saturating_mul(per_cell))
-        };
+        let fine = |n: usize| n as f64 * refine as f64;
         let (nodes, elements) = match self {
-            Mesh::Box { cells, element, .. } => lattice(
-                &cells.map(fine),
-                [1, 6][usize::from(*element == Element::Tet4)],
-            ),
-            Mesh::Rectangle { cells, element, .. } => lattice(
-                &cells.map(fine),
-                [1, 2][usize::from(*element == PlaneElement::Tri3)],
-            ),
+            Mesh::Box { cells, element, .. } => {
+                let per_cell = match element {
+                    Element::Hex8 => 1.0,
+                    Element::Tet4 => 6.0,
+                };
+                lattice(&cells.map(fine), per_cell)
+            }
+            Mesh::Rectangle { cells, element, .. } => {
+                lattice(&cells.map(fine), element.per_quadrilateral())
+            }
             Mesh::Annulus { cells, .. } => {
                 let [around, through] = cells.map(fine);
-                let layers = through.saturating_add(1);
-                (
-                    around.saturating_mul(layers),
-                    around.saturating_mul(through),
+                (around * (through + 1.0), around * through)
+            }
+            Mesh::Disc { cells, element, .. } => {
+                let n = fine(*cells);
+                let (nodes, cells) = round(n * n, (n + 1.0).powi(2), 4.0 * n, 4.0 * n, n);
+                (nodes, cells * element.per_quadrilateral())
+            }
+            Mesh::HalfDisc { cells, .. } => {
+                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
+                let core = (2.0 * h + 1.0) * (h + 1.0);
+                round(2.0 * h * h, core, 4.0 * h, 4.0 * h + 1.0, n)
+            }
+            Mesh::QuarterDisc { cells, .. } => {
+                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
+                round(h * h, (h + 1.0).powi(2), 2.0 * h, 2.0 * h + 1.0, n)
+            }
+            Mesh::HalfBall { cells, .. } => {
+                let h = (0.5 * fine(*cells)).ceil();
+                let top = (2.0 * h + 1.0).powi(2);
+                let sides = 8.0 * h * h;
+                round(
+                    4.0 * h * h * h,
+                    top * (h + 1.0),
+                    12.0 * h * h,
+                    top + sides,
+                    2.0 * h,
                 )
             }
-            Mesh::Disc { cells, .. } => round(fine(*cells), 4),
-            Mesh::HalfDisc { cells, .. } => round(fine(*cells), 2),
-            Mesh::QuarterDisc { cells, .. } => round(fine(*cells), 1),
-            Mesh::HalfBall { cells, .. } => {
-                let n = fine(*cells);
-                let (nodes, elements) = round(n, 4);
-                (nodes.saturating_mul(n), elements.saturating_mul(n))
-            }
         };
-        let dim = if self.is_plane() { 2 } else { 3 };
+        let dim = if self.is_plane() { 2.0 } else { 3.0 };
         MeshSize {
-            nodes,
-            elements,
-            dofs: nodes.saturating_mul(dim),
+            nodes: nodes as usize,
+            elements: elements as usize,
+            dofs: (dim * nodes) as usize,
         }
     }
 
@@ -243,8 +266,15 @@ impl Mesh {
     }
 }
 
-/// Nodes and elements of so many quarters of a disc.
-fn round(n: usize, quarters: usize) -> (usize, usize) {
-    let cells = quarters.saturating_mul(n).saturating_mul(n);
-    (cells.saturating_add(n), cells)
+/// Nodes and elements of a grid.
+fn lattice(cells: &[f64], per_cell: f64) -> (f64, f64) {
+    let nodes = cells.iter().map(|n| n + 1.0).product();
+    (nodes, cells.iter().product::<f64>() * per_cell)
+}
+
+/// Nodes and elements of a core and of the shells around it, from those of the core and of its outside; `quarter` is the
+/// number of cells on a quarter of the rim.
+fn round(core_cells: f64, core_nodes: f64, cells: f64, nodes: f64, quarter: f64) -> (f64, f64) {
+    let shells = ((2.0 * quarter + 2.0) / 5.0).floor().max(1.0);
+    (core_nodes + nodes * shells, core_cells + cells * shells)
 }

@@ -74,13 +74,6 @@ fn threshold() -> f64 {
     1e-4
 }
 
-impl Adhesion {
-    /// Separation `sqrt(w / C_n)` \[m\] at which a full bond starts to break; infinite without normal stiffness.
-    pub fn length(&self) -> f64 {
-        (self.energy / self.normal_stiffness).sqrt()
-    }
-}
-
 /// A stiffness along the two tangents.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged, expecting = "expected a number or a pair of numbers")]

@@ -1,7 +1,7 @@
 //! Interfaces: shapes, friction, bonds.
 
 use super::Checker;
-use crate::spec::{Adhesion, ContactLevel, Healing, Interface, Master, Motion, Stiffness};
+use crate::spec::{Adhesion, ContactLevel, Healing, Interface, Master, Motion, Stiffness, Update};
 
 impl Checker<'_> {
     pub(super) fn interfaces(&mut self) {
@@ -100,6 +100,11 @@ impl Checker<'_> {
             "must be greater than 0 [N/m^3], or C_t must: a bond with w > 0 and no stiffness carries nothing and never breaks",
         );
         self.not_negative(adhesion.viscosity, &field("b"), "N s/m");
+        self.require(
+            adhesion.viscosity > 0.0 || adhesion.update == Update::SecondOrder,
+            &field("b"),
+            "must be greater than 0 [N s/m] with update: EnergyConsistent",
+        );
         let inside = adhesion.threshold > 0.0 && adhesion.threshold < 1.0;
         self.require(inside, &field("epsilon"), "must be between 0 and 1 [-]");
         self.not_negative(adhesion.healing_gap, &field("healing_gap"), "m");

@@ -30,6 +30,7 @@ impl Checker<'_> {
                 center,
                 radius,
                 cells,
+                ..
             }
             | Mesh::HalfDisc {
                 center,
