@@ -334,7 +334,7 @@ impl Delassus {
 }
 
 /// `out = W r` by columns, four at a time; columns without reaction are skipped.
-fn dense_times(w: &Mat<f64>, r: &[f64], out: &mut [f64]) {
+pub(crate) fn dense_times(w: &Mat<f64>, r: &[f64], out: &mut [f64]) {
     out.fill(0.0);
     let mut columns = r.iter().enumerate().filter(|(_, x)| **x != 0.0);
     loop {

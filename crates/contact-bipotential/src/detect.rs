@@ -13,7 +13,7 @@ use crate::vec3::{Vec3, axpy, node_vector, unit};
 
 use surface_search::SurfaceSearch;
 
-/// A node this close to a cone's apex, as a part of the search distance, meets it head-on.
+/// A node this close to a cone's apex or an axis of symmetry, as a part of the search distance, lies on it.
 const CORE: f64 = 1e-6;
 /// Slave nodes a thread takes at once: a projection is far cheaper than handing it over.
 const GRAIN: usize = 64;
@@ -90,6 +90,24 @@ impl Detector {
             cone,
             counters,
         })
+    }
+
+    /// The detector of an axisymmetric problem: x is the radius, y runs along the axis.
+    ///
+    /// A deformable master that ends on the axis is continued by its mirror image. Without that, a node over the
+    /// pole of a dome would overhang the end of the last facet, which slopes. `reference` are the positions \[m\]
+    /// given to [`new`](Self::new); problems with 3 unknowns a node stay as they are.
+    pub fn axisymmetric(mut self, reference: &[f64]) -> Self {
+        if self.dim == 2 {
+            for (interface, search) in self.interfaces.iter().zip(&mut self.searches) {
+                let core = CORE * interface.search_distance;
+                let is_on_axis = |node| node_vector(reference, 2, node)[0].abs() <= core;
+                if let Some(search) = search {
+                    search.mirror_at_axis(is_on_axis);
+                }
+            }
+        }
+        self
     }
 
     /// The interfaces, in the order that [`Contact::interface`] counts.

@@ -1,6 +1,7 @@
-//! Closest point on one facet: a flat triangle or a bilinear quadrilateral.
+//! Closest point on one facet: a flat triangle or a bilinear quadrilateral; in the plane, a straight line.
 //!
-//! Vertices run counter-clockwise seen from outside; edge `k` joins vertex `k` to the next one.
+//! Vertices run counter-clockwise seen from outside; edge `k` joins vertex `k` to the next one. A line lies in
+//! z = 0 with the body on its left; it has no edges, only its inside and two vertices.
 //! A quadrilateral is `x = a + xi b + eta c + xi eta d` with `(xi, eta)` in the unit square, vertices at
 //! (0,0), (1,0), (1,1), (0,1); a triangle is the case `d = 0` with `xi + eta <= 1`.
 
@@ -20,9 +21,9 @@ pub enum Place {
 /// A point of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacetPoint {
-    /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle [-].
+    /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle [-]; `(xi, 0)` on a line.
     pub coordinates: [f64; 2],
-    /// Shape functions at the point [-]: they sum to 1, the fourth is 0 on a triangle.
+    /// Shape functions at the point [-]: they sum to 1; those of missing vertices are 0.
     pub weights: [f64; 4],
     /// Position \[m\].
     pub point: [f64; 3],
@@ -32,15 +33,16 @@ pub struct FacetPoint {
     pub place: Place,
 }
 
-/// The point of a facet closest to `p` \[m\]: `vertices` holds 3 or 4 positions \[m\].
+/// The point of a facet closest to `p` \[m\]: `vertices` holds 2 to 4 positions \[m\].
 ///
-/// Exact for triangles. For quadrilaterals a safeguarded projected Newton iteration, compared with the four
+/// Exact for lines and triangles. For quadrilaterals a safeguarded projected Newton iteration, compared with the four
 /// edges; it returns the global minimum unless the facet is warped so strongly, and `p` so far, that the
 /// distance has several minima inside.
 ///
-/// With fewer than 3 vertices the first one is returned.
+/// With fewer than 2 vertices the first one is returned.
 pub fn closest_point(vertices: &[[f64; 3]], p: [f64; 3]) -> FacetPoint {
     match vertices {
+        [a, b] => line(&[*a, *b], p),
         [a, b, c] => triangle(&[*a, *b, *c], p),
         [a, b, c, d, ..] => quadrilateral(&[*a, *b, *c, *d], p),
         _ => {
@@ -60,6 +62,7 @@ pub fn closest_point(vertices: &[[f64; 3]], p: [f64; 3]) -> FacetPoint {
 /// Outward unit normal of the facet itself at local coordinates; `None` where the facet is degenerate.
 pub fn facet_normal(vertices: &[[f64; 3]], coordinates: [f64; 2]) -> Option<[f64; 3]> {
     match vertices {
+        [a, b] => unit([b[1] - a[1], a[0] - b[0], 0.0]),
         [a, b, c] => unit(cross(sub(*b, *a), sub(*c, *a))),
         [a, b, c, d, ..] => {
             let q = Bilinear::new(&[*a, *b, *c, *d], *a);
@@ -93,6 +96,20 @@ fn closest_on_border(vertices: &[Vec3]) -> (usize, f64, f64) {
         }
     }
     best
+}
+
+fn line(x: &[Vec3; 2], p: Vec3) -> FacetPoint {
+    let a = sub(x[0], p);
+    let t = segment(a, sub(x[1], p));
+    let place = if t <= 0.0 {
+        Place::Vertex(0)
+    } else if t >= 1.0 {
+        Place::Vertex(1)
+    } else {
+        Place::Interior
+    };
+    let relative = axpy(a, t, sub(x[1], x[0]));
+    finish(x, [t, 0.0], [1.0 - t, t, 0.0, 0.0], place, relative)
 }
 
 fn triangle(x: &[Vec3; 3], p: Vec3) -> FacetPoint {
@@ -311,14 +328,18 @@ pub(crate) fn interpolate(values: &[Vec3], weights: &[f64; 4]) -> Vec3 {
         .fold([0.0; 3], |sum, (a, w)| axpy(sum, *w, *a))
 }
 
-/// The unit vector in the facet that points out of it across edge `k`, at a point of that edge.
+/// The unit vector in the facet that points out of it across side `k`, at a point of that side: edge `k` of a
+/// face, vertex `k` of a line.
 ///
 /// Zero on a degenerate facet, which then has no outside.
-pub(crate) fn conormal(vertices: &[Vec3], edge: usize, coordinates: [f64; 2]) -> Vec3 {
-    let e = sub(vertices[(edge + 1) % vertices.len()], vertices[edge]);
-    facet_normal(vertices, coordinates)
-        .and_then(|m| unit(cross(e, m)))
-        .unwrap_or_else(|| scale(0.0, e))
+pub(crate) fn conormal(vertices: &[Vec3], side: usize, coordinates: [f64; 2]) -> Vec3 {
+    let e = sub(vertices[(side + 1) % vertices.len()], vertices[side]);
+    let outward = if vertices.len() == 2 {
+        unit(scale(-1.0, e))
+    } else {
+        facet_normal(vertices, coordinates).and_then(|m| unit(cross(e, m)))
+    };
+    outward.unwrap_or([0.0; 3])
 }
 
 /// Local coordinates of vertex `k` of a facet with `count` vertices.

@@ -100,6 +100,9 @@ impl Interface {
         }
         self.validate_parameters()?;
         match &self.master {
+            Master::Obstacle(obstacle) if dim == 2 => {
+                obstacle.out_of_plane().map_or(Ok(()), refuse)
+            }
             Master::Obstacle(_) => Ok(()),
             Master::Surface(surface) => self.validate_surface(surface, nodes, dim),
         }
@@ -160,11 +163,12 @@ impl Interface {
                 reason,
             })
         };
-        if dim != 3 || surface.dim() != 3 {
-            return refuse(
-                "a deformable master needs a mesh in space, with triangles or quadrilaterals"
-                    .to_owned(),
-            );
+        if surface.dim() != dim {
+            return refuse(format!(
+                "its master has {}, but the mesh has {dim} unknowns a node; a plane body has edges, a body in \
+                 space triangles or quadrilaterals",
+                if surface.dim() == 2 { "edges" } else { "faces" }
+            ));
         }
         if let Some(node) = surface.nodes.iter().find(|n| **n as usize >= nodes) {
             return refuse(format!(

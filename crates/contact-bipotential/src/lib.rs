@@ -4,6 +4,7 @@
 //! Conventions, once: `n` points out of the master towards the slave, `x = X_slave - X_master` in the local frame
 //! `(t1, t2, n)`, normal **last**; `r` acts on the slave; `x_n >= 0` is separation, `r_n >= 0` compression.
 
+pub mod carry;
 pub mod cone;
 pub mod conformance;
 pub mod delassus;
@@ -24,6 +25,7 @@ pub mod truth;
 
 mod vec3;
 
+pub use carry::material_axes;
 pub use cone::Cone;
 pub use delassus::{BlockSparse, Delassus, DelassusOperator};
 pub use detect::{DetectionCounters, Detector};
@@ -36,5 +38,5 @@ pub use obstacle::{Obstacle, Shape};
 pub use problem::ContactProblem;
 pub use rcc::{Adhesion, Bond, BondStep};
 pub use solve::sequence::SequenceSolver;
-pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve};
+pub use solve::{Method, Outcome, SolveSettings, SolveStatus, Work, solve, solve_bonded};
 pub use truth::{Errors, errors};

@@ -8,6 +8,26 @@ pub type Vector<const D: usize> = [f64; D];
 /// A matrix of one contact, by rows, normal row and column last.
 pub type Matrix<const D: usize> = [[f64; D]; D];
 
+/// Which of `(t1, t2, n)` the entries of a local vector of so many entries are.
+#[inline(always)]
+pub const fn local_axes(entries: usize) -> &'static [usize] {
+    match entries {
+        1 => &[2],
+        2 => &[0, 2],
+        _ => &[0, 1, 2],
+    }
+}
+
+/// The vector in `(t1, t2, n)`; tangents that it does not have are zero.
+#[inline(always)]
+pub fn spatial<const D: usize>(v: &Vector<D>) -> [f64; 3] {
+    let mut x = [0.0; 3];
+    for (v, axis) in v.iter().zip(local_axes(D)) {
+        x[*axis] = *v;
+    }
+    x
+}
+
 /// Scalar product.
 #[inline(always)]
 pub fn dot<const D: usize>(a: &Vector<D>, b: &Vector<D>) -> f64 {

@@ -1,11 +1,14 @@
 //! Rigid obstacles with prescribed motion: shape, signed gap, normal and the motion of the point under a contact.
 
-use fe_core::Motion;
+use fe_core::{Motion, Rotation};
 
 use crate::interface::GeometryError;
 use crate::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
+///
+/// In the plane z = 0 a sphere is a disc, a cylinder along z too, a cone a wedge; in axisymmetry a sphere or cone on
+/// the axis is itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A half-space.
@@ -137,7 +140,7 @@ impl Shape {
                 }
             }
             Shape::Sphere { center, radius } => {
-                round(sub(x, center), center, radius, core, [0.0, 0.0, 1.0])
+                round(sub(x, center), center, radius, core, [0.0, 1.0, 0.0])
             }
             Shape::Cylinder {
                 point,
@@ -260,6 +263,29 @@ impl Obstacle {
         &self.motion
     }
 
+    /// Why the obstacle cannot bound a body in the plane z = 0: its normals or its motion leave the plane. `None` if
+    /// it can.
+    pub(crate) fn out_of_plane(&self) -> Option<String> {
+        let (what, z) = match self.shape {
+            Shape::Plane { normal, .. } => ("z of a plane's normal", normal[2]),
+            Shape::Sphere { center, .. } => ("z of a sphere's center [m]", center[2]),
+            Shape::Cylinder { axis, .. } => {
+                ("part of a cylinder's axis across z", axis[0].hypot(axis[1]))
+            }
+            Shape::Cone { apex, axis, .. } if axis[2] == 0.0 => ("z of a cone's apex [m]", apex[2]),
+            Shape::Cone { axis, .. } => ("z of a cone's axis", axis[2]),
+        };
+        if z != 0.0 {
+            return Some(format!("the {what} is {z}; in the plane it must be 0"));
+        }
+        let tilts = |r: &Rotation| !r.angle().is_zero() && r.axis()[2].abs() != 1.0;
+        let leaves = !self.motion.translation[2].is_zero()
+            || self.motion.rotation.as_ref().is_some_and(tilts);
+        leaves.then(|| {
+            "the obstacle's motion leaves the plane; translate along x and y and rotate about z only".to_owned()
+        })
+    }
+
     /// The obstacle at the end of a step from `t0` to `t1` \[s\].
     pub fn over_step(&self, t0: f64, t1: f64) -> PlacedObstacle<'_> {
         PlacedObstacle {
@@ -289,7 +315,7 @@ impl PlacedObstacle<'_> {
     /// Gap, normal and closest point for the position `x` \[m\] at the end of the step.
     ///
     /// `core` \[m\], small against the mesh: nearer than this to a centre, an axis or an apex, where there is no
-    /// unique normal, a fixed one is taken: along the axis out of the apex (cone), `e_z` (sphere), or a fixed
+    /// unique normal, a fixed one is taken: along the axis out of the apex (cone), `e_y` (sphere), or a fixed
     /// direction across the axis (cylinder).
     pub fn closest(&self, x: [f64; 3], core: f64) -> SurfacePoint {
         self.shape.closest(x, core)

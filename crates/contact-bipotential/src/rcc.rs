@@ -11,6 +11,10 @@ use crate::interface::GeometryError;
 
 use update::{blend, blend_slope, decay_mean, decay_mean_slope};
 
+/// Gap over the damage gap up to which a pair counts as touching: its bond is strained by a millionth of `w`. An iteration
+/// that approaches a closed gap from above must not see healing come and go with the last digits.
+const CLOSED: f64 = 1e-3;
+
 /// Whether broken bonds form again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Healing {
@@ -186,7 +190,7 @@ pub struct BondStep {
     area: f64,
     dt: f64,
     start: Bond,
-    /// Gap up to which a pair counts as touching \[m\]: the healing gap and the round-off of positions.
+    /// Gap up to which a pair counts as touching \[m\].
     touching: f64,
     /// Share of the separation that ageing leaves.
     kept: f64,
@@ -202,6 +206,8 @@ pub struct BondPoint {
     /// Minus the derivative of the force with respect to `(dx_t, x_n)` [N/m]; not symmetric, may be indefinite where the bond
     /// softens.
     pub stiffness: [[f64; 3]; 3],
+    /// Derivative of `beta` with respect to `(dx_t, x_n)` \[1/m\].
+    pub intensity_slope: [f64; 3],
 }
 
 /// Energies of a bond over one step \[J\].
@@ -218,7 +224,7 @@ pub struct BondEnergy {
 impl BondStep {
     /// A step of `dt` \[s\] of a bond on an `area` [m^2]; `roundoff` is the error of a gap \[m\].
     pub fn new(law: &Adhesion, area: f64, dt: f64, start: Bond, roundoff: f64) -> Self {
-        let touching = law.healing_gap + roundoff;
+        let touching = law.healing_gap + roundoff.max(CLOSED * law.damage_gap());
         let ages = law.reference == Reference::Ageing && start.gap <= touching;
         let formed = dt * law.energy;
         let old = law.viscosity * start.intensity;
@@ -252,17 +258,27 @@ impl BondStep {
         &self.start
     }
 
+    /// Whether a pair at the gap `x_n` \[m\] touches, so that bonds can form.
+    pub fn touches(&self, gap: f64) -> bool {
+        gap <= self.touching
+    }
+
     /// Whether there is a bond at the start, or one may form at the gap `x_n` \[m\].
     pub fn may_act(&self, gap: f64) -> bool {
         self.area > 0.0
             && (self.start.intensity > 0.0
-                || self.law.healing == Healing::Recoverable && gap <= self.touching)
+                || self.law.healing == Healing::Recoverable && self.touches(gap))
     }
 
     /// `mu` at the intensity `beta`, where `mu` is that of the bare surfaces \[-\].
     pub fn friction(&self, mu: f64, beta: f64) -> f64 {
         let bonded = self.law.bonded_friction.filter(|_| self.area > 0.0);
         bonded.map_or(mu, |bonded| mu + (bonded - mu) * beta)
+    }
+
+    /// Derivative of [`friction`](Self::friction) with respect to `beta`.
+    pub fn friction_slope(&self, mu: f64) -> f64 {
+        self.friction(mu, 1.0) - mu
     }
 
     /// `(u_t1, x_n)` at the end position `x = (dx_t, x_n)`.
@@ -305,7 +321,7 @@ impl BondStep {
             Update::SecondOrder if law.viscosity == 0.0 => rate_independent(law.energy, k),
             Update::SecondOrder => self.exponential(k),
         };
-        let heals = law.healing == Healing::Recoverable && x[2] <= self.touching;
+        let heals = law.healing == Healing::Recoverable && self.touches(x[2]);
         let most = if heals { 1.0 } else { start };
         if free >= most {
             (most, 0.0)
@@ -356,7 +372,7 @@ impl BondStep {
     pub fn at(&self, x: &[f64; 3]) -> BondPoint {
         let (intensity, slope) = self.intensity(x);
         let (mut d, shift) = self.spring(intensity);
-        let (per_square, _) = self.spring_of_unit();
+        let per_square = self.spring_per_square();
         let (separation, gap) = self.end(x);
         let open = x[2] > 0.0;
         let stretch = [x[0] + shift[0], x[1] + shift[1], gap + shift[2]];
@@ -370,32 +386,34 @@ impl BondStep {
             2.0 * t2 * self.kept * separation[1],
             2.0 * self.law.normal_stiffness * gap,
         ];
+        let intensity_slope = k_slope.map(|k| slope * k);
         let mut stiffness = [[0.0; 3]; 3];
         for i in 0..3 {
             stiffness[i][i] = d[i];
+            let softening = 2.0 * intensity * per_square[i] * stretch[i];
             for j in 0..3 {
-                let softening = 2.0 * intensity * per_square[i] * stretch[i];
-                stiffness[i][j] += softening * slope * k_slope[j];
+                stiffness[i][j] += softening * intensity_slope[j];
             }
         }
         BondPoint {
             intensity,
             force,
             stiffness,
+            intensity_slope,
         }
     }
 
     /// Derivative of `D` with respect to `beta^2`.
-    fn spring_of_unit(&self) -> ([f64; 3], [f64; 3]) {
-        let ((one, shift), (zero, _)) = (self.spring(1.0), self.spring(0.0));
-        ([0, 1, 2].map(|i| one[i] - zero[i]), shift)
+    fn spring_per_square(&self) -> [f64; 3] {
+        let ((one, _), (zero, _)) = (self.spring(1.0), self.spring(0.0));
+        [0, 1, 2].map(|i| one[i] - zero[i])
     }
 
     /// The bond after the step that ended at `x`; one that has parted and is weaker than the threshold is forgotten.
     pub fn finish(&self, x: &[f64; 3]) -> Bond {
         let (separation, gap) = self.end(x);
         let intensity = self.intensity(x).0;
-        if gap > self.touching && intensity < self.law.threshold {
+        if !self.touches(gap) && intensity < self.law.threshold {
             return Bond {
                 gap,
                 ..Bond::default()

@@ -2,6 +2,7 @@
 
 mod auto;
 mod block_lu;
+mod bonded;
 mod gauss_seidel;
 mod iterate;
 mod local_newton;
@@ -12,6 +13,7 @@ pub mod sequence;
 pub mod single;
 mod uzawa;
 
+pub use bonded::{frozen, solve_bonded};
 pub use iterate::Work;
 
 use crate::cone::Cone;

@@ -2,8 +2,9 @@
 
 use crate::cone::{Cone, bipotential_gap};
 use crate::law::{ContactDiagnostic, diagnose, natural_map};
-use crate::local::{Vector, dot, load, max_abs};
+use crate::local::{Vector, dot, load, local_axes, max_abs, spatial};
 use crate::problem::ContactProblem;
+use crate::rcc::{BondPoint, BondStep};
 
 /// How far reactions are from solving a problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,20 +38,72 @@ impl Errors {
 #[derive(Debug)]
 pub struct Truth<'a> {
     problem: &'a ContactProblem,
+    bonds: &'a [BondStep],
     scales: Vec<f64>,
     roots: Vec<f64>,
+}
+
+/// A contact whose bond has been taken off.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Dry<const D: usize> {
+    /// Friction coefficient at the intensity of the bond.
+    pub(crate) mu: f64,
+    /// Its derivative with respect to the intensity.
+    pub(crate) mu_slope: f64,
+    /// The part of the reaction that the contact law governs.
+    pub(crate) r: Vector<D>,
+    /// What the bond adds.
+    pub(crate) bond: BondPoint,
 }
 
 impl<'a> Truth<'a> {
     /// Prepares the scales.
     pub fn new(problem: &'a ContactProblem) -> Self {
+        Self::bonded(problem, &[])
+    }
+
+    /// The same with a bond at each contact (none at all if `bonds` is empty): `r` is the whole reaction, `u` is read as the
+    /// end position `(dx_t, x_n)`, and the law governs what is left of `r` without the bond force.
+    pub fn bonded(problem: &'a ContactProblem, bonds: &'a [BondStep]) -> Self {
         let scales = problem.compliance_scales();
         let roots = scales.iter().map(|w| w.sqrt()).collect();
         Truth {
             problem,
+            bonds,
             scales,
             roots,
         }
+    }
+
+    /// Contact `c` without its bond, which is there only where bonds were given.
+    #[inline(always)]
+    pub(crate) fn dry<const D: usize>(&self, c: usize, r: &Vector<D>, u: &Vector<D>) -> Dry<D> {
+        let mu = self.problem.mu[c];
+        let Some(bond) = self.bonds.get(c) else {
+            let (r, bond, mu_slope) = (*r, BondPoint::default(), 0.0);
+            return Dry {
+                mu,
+                mu_slope,
+                r,
+                bond,
+            };
+        };
+        let at = bond.at(&spatial(u));
+        let mut dry = *r;
+        for (i, axis) in local_axes(D).iter().enumerate() {
+            dry[i] -= at.force[*axis];
+        }
+        Dry {
+            mu: bond.friction(mu, at.intensity),
+            mu_slope: bond.friction_slope(mu),
+            r: dry,
+            bond: at,
+        }
+    }
+
+    /// The bonds, one a contact, or none.
+    pub(crate) fn bonds(&self) -> &'a [BondStep] {
+        self.bonds
     }
 
     /// Compliance scale `w_c` of each contact.
@@ -90,13 +143,10 @@ impl<'a> Truth<'a> {
         let (k, e) = (reciprocal(plain), reciprocal(energy));
         let mut raw = Sums::default();
         let mut free = Sums::default();
-        for (c, &mu) in self.problem.mu.iter().enumerate() {
+        for c in 0..self.problem.contacts() {
             let root = self.roots[c];
-            let (rc, uc, qc) = (
-                load::<D>(r, c),
-                load::<D>(u, c),
-                load::<D>(&self.problem.q, c),
-            );
+            let (uc, qc) = (load::<D>(u, c), load::<D>(&self.problem.q, c));
+            let Dry { mu, r: rc, .. } = self.dry(c, &load::<D>(r, c), &uc);
             raw.add(mu, &scaled(&rc, k), &scaled(&uc, k), &scaled(&qc, k));
             free.add(
                 mu,
@@ -165,8 +215,8 @@ impl<'a> Truth<'a> {
         }
         let total = if total > 0.0 { total.sqrt() } else { 1.0 };
         let one = |c: usize| {
-            let (mu, root) = (self.problem.mu[c], self.roots[c]);
-            let (rc, uc) = (load::<D>(r, c), load::<D>(u, c));
+            let (root, uc) = (self.roots[c], load::<D>(u, c));
+            let Dry { mu, r: rc, .. } = self.dry(c, &load::<D>(r, c), &uc);
             let f = natural_map(mu, 1.0, &scaled(&uc, e / root), &scaled(&rc, e * root));
             ContactDiagnostic {
                 error: dot(&f, &f).sqrt() / total,

@@ -1,9 +1,11 @@
 //! The contact side of a step: candidates, local variable, local problem, error of the law.
 
 use contact_bipotential::cone::project;
+use contact_bipotential::local::local_axes;
+use contact_bipotential::solve::frozen;
 use contact_bipotential::{
-    CompliancePart, Cone, Contact, ContactMap, ContactProblem, Delassus, SequenceSolver,
-    SolveSettings,
+    BondStep, CompliancePart, Cone, Contact, ContactMap, ContactProblem, Delassus, Interface,
+    SequenceSolver, SolveSettings,
 };
 use faer::Mat;
 
@@ -146,7 +148,11 @@ impl ContactMemory {
 
 /// The local law: one row a contact where nothing rubs.
 pub(crate) fn cone_of(model: &Model) -> Cone {
-    if model.interfaces.iter().all(|i| i.mu == 0.0) {
+    let rubs = |i: &Interface| {
+        let bonds = i.adhesion.as_ref();
+        i.mu > 0.0 || bonds.is_some_and(|a| a.is_tangential() || a.bonded_friction > Some(0.0))
+    };
+    if !model.interfaces.iter().any(rubs) {
         Cone::Frictionless
     } else if model.solid.dim() == 2 {
         Cone::Planar
@@ -213,15 +219,6 @@ fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
     x
 }
 
-/// Which of (t1, t2, n) the entries of a local vector are.
-pub(crate) fn local_axes(cone: usize) -> &'static [usize] {
-    match cone {
-        1 => &[2],
-        2 => &[0, 2],
-        _ => &[0, 1, 2],
-    }
-}
-
 /// The contacts of a map that are kept.
 pub(crate) fn filtered(map: &ContactMap, keep: impl Fn(usize, &Contact) -> bool) -> ContactMap {
     let kept = map
@@ -243,6 +240,14 @@ pub(crate) struct LawError {
 }
 
 impl ContactMemory {
+    /// Mean of `1 / W_ii` of a contact that entered a contact problem, else infinite [N/m].
+    pub(crate) fn local_stiffness(&self, contact: &Contact) -> f64 {
+        match self.stiffness[contact.interface][contact.slave_index] {
+            0.0 => f64::INFINITY,
+            inverse_trace => self.cone as f64 * inverse_trace,
+        }
+    }
+
     /// Error of the contact law with exact gaps; `fallback` is the stiffness [N/m] of contacts
     /// that never entered a contact problem.
     pub(crate) fn law_error(&self, model: &Model, trial: &Trial, fallback: f64) -> LawError {
@@ -258,7 +263,8 @@ impl ContactMemory {
                 known => known,
             };
             let mu = model.interfaces[c.interface].mu;
-            let size = natural_map(mu, rho, r, x);
+            let (mu, r) = without_bond(trial.bonds.get(k), mu, r, x);
+            let size = natural_map(mu, rho, &r[3 - cone..], x);
             if size > error.largest {
                 error = LawError {
                     largest: size,
@@ -268,6 +274,28 @@ impl ContactMemory {
         }
         error
     }
+}
+
+/// Friction coefficient and the part of a force that the contact law governs; missing tangents stand in front.
+fn without_bond(bond: Option<&BondStep>, mu: f64, r: &[f64], x: &[f64]) -> (f64, [f64; 3]) {
+    let mut dry = [0.0; 3];
+    dry[3 - r.len()..].copy_from_slice(r);
+    let Some(bond) = bond else { return (mu, dry) };
+    let at = bond.at(&in_frame(x));
+    let axes = local_axes(r.len());
+    for (i, axis) in axes.iter().enumerate() {
+        dry[3 - r.len() + i] -= at.force[*axis];
+    }
+    (bond.friction(mu, at.intensity), dry)
+}
+
+/// A local vector in `(t1, t2, n)`.
+pub(crate) fn in_frame(x: &[f64]) -> [f64; 3] {
+    let mut full = [0.0; 3];
+    for (x, axis) in x.iter().zip(local_axes(x.len())) {
+        full[*axis] = *x;
+    }
+    full
 }
 
 /// Norm of `r - Proj_K(r - rho (x + mu |x_t| n))`, normal last.
@@ -289,9 +317,10 @@ fn natural_map(mu: f64, rho: f64, r: &[f64], x: &[f64]) -> f64 {
         .sqrt()
 }
 
-/// Which candidates enter the contact problem: those with a force, and those that the correction
-/// brings near. The others are checked with their exact gap in the next iteration.
-fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64]) -> Vec<bool> {
+/// Which candidates enter the contact problem: those with a force or a bond, and those that the
+/// correction brings near. The others are checked with their exact gap in the next iteration.
+fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64]) -> Vec<bool> {
+    let map = &trial.map;
     if model.scheme.contact == ContactLevel::Velocity {
         return vec![true; map.contacts.len()];
     }
@@ -299,8 +328,12 @@ fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64])
         let interface = &model.interfaces[map.contacts[k].interface];
         free[cone * k + cone - 1] <= 0.25 * interface.search_distance
     };
+    let acts = |k: usize| {
+        let bond = trial.bonds.get(k);
+        bond.is_some_and(|bond| bond.may_act(free[cone * k + cone - 1]))
+    };
     (0..map.contacts.len())
-        .map(|k| near(k) || r[cone * k + cone - 1] > 0.0)
+        .map(|k| near(k) || trial.r[cone * k + cone - 1] > 0.0 || acts(k))
         .collect()
 }
 
@@ -310,6 +343,8 @@ fn enters(model: &Model, map: &ContactMap, cone: usize, free: &[f64], r: &[f64])
 pub(crate) struct LinearisedContact {
     map: ContactMap,
     problem: ContactProblem,
+    /// One a contact, or none where no bond can act.
+    bonds: Vec<BondStep>,
     /// Warm start.
     r: Vec<f64>,
 }
@@ -332,7 +367,7 @@ impl LinearisedContact {
         let mut free = vec![0.0; trial.x.len()];
         trial.map.apply(&z, &mut free);
         free.iter_mut().zip(&trial.x).for_each(|(f, x)| *f += x);
-        let keep = enters(model, &trial.map, cone, &free, &trial.r);
+        let keep = enters(model, trial, cone, &free);
         let map = filtered(&trial.map, |k, _| keep[k]);
         let select = |all: &[f64]| -> Vec<f64> {
             all.chunks_exact(cone)
@@ -353,10 +388,17 @@ impl LinearisedContact {
             mu,
             cone: map.cone(),
         };
+        let kept = trial.bonds.iter().zip(&keep).filter(|(_, k)| **k);
+        let mut bonds: Vec<BondStep> = kept.map(|(bond, _)| *bond).collect();
+        let gaps = problem.q.iter().skip(cone - 1).step_by(cone);
+        if !bonds.iter().zip(gaps).any(|(bond, gap)| bond.may_act(*gap)) {
+            bonds.clear();
+        }
         Ok(Self {
             r: select(&trial.r),
             map,
             problem,
+            bonds,
         })
     }
 
@@ -373,8 +415,10 @@ impl LinearisedContact {
             max_iterations: model.settings.contact_iterations,
             ..SolveSettings::default()
         };
-        let outcome = memory.solver.solve(&self.problem, &mut self.r, &settings);
+        let solver = &mut memory.solver;
+        let outcome = solver.solve(&self.problem, &self.bonds, &mut self.r, &settings);
         counters.contact_solves += 1;
+        counters.bonded_solves += u64::from(!self.bonds.is_empty());
         counters.contact_iterations += outcome.iterations as u64;
         counters.contacts_max = counters.contacts_max.max(self.map.len() as u64);
         if outcome.error.max(outcome.error_scale_free)
@@ -394,7 +438,7 @@ impl LinearisedContact {
         let mut force = vec![0.0; model.dof_count()];
         self.map.apply_transpose(&self.r, &mut force);
         memory.store(&self.map, &self.r);
-        memory.keep_operator(self.map, self.problem);
+        memory.keep_operator(self, &outcome.u);
         Ok(force)
     }
 }
@@ -409,6 +453,9 @@ struct KeptOperator {
     w: Mat<f64>,
     q: Vec<f64>,
     mu: Vec<f64>,
+    bonds: Vec<BondStep>,
+    /// Intensity of each bond.
+    intensities: Vec<f64>,
 }
 
 impl ContactMemory {
@@ -428,14 +475,17 @@ impl ContactMemory {
         w
     }
 
-    fn keep_operator(&mut self, map: ContactMap, problem: ContactProblem) {
-        if let Delassus::Dense(w) = problem.w {
+    fn keep_operator(&mut self, last: LinearisedContact, x: &[f64]) {
+        if let Delassus::Dense(w) = last.problem.w {
+            let at = last.bonds.iter().zip(x.chunks_exact(self.cone));
             self.kept = Some(KeptOperator {
-                contacts: map.contacts,
+                contacts: last.map.contacts,
                 epochs: self.epochs.clone(),
                 w,
-                q: problem.q,
-                mu: problem.mu,
+                q: last.problem.q,
+                mu: last.problem.mu,
+                intensities: at.map(|(b, x)| b.intensity(&in_frame(x)).0).collect(),
+                bonds: last.bonds,
             });
             self.solved = true;
         }
@@ -455,14 +505,19 @@ impl ContactMemory {
 
 impl Stepper<'_> {
     /// The contact problem of the last iteration that had one in the last step [m, N], a copy; `None` where nothing touched.
+    /// With bonds it is the problem that they leave for the dry forces.
     pub fn last_contact_problem(&self) -> Option<ContactProblem> {
         let kept = self.memory.kept.as_ref().filter(|_| self.memory.solved)?;
-        Some(ContactProblem {
+        let problem = ContactProblem {
             w: Delassus::Dense(kept.w.clone()),
             q: kept.q.clone(),
             mu: kept.mu.clone(),
             cone: cone_of(self.model()),
-        })
+        };
+        if kept.bonds.is_empty() {
+            return Some(problem);
+        }
+        Some(frozen(&problem, &kept.bonds, &kept.w, &kept.intensities))
     }
 }
 

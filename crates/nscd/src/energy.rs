@@ -1,10 +1,13 @@
 //! The end of a step: energy audit, forces of interfaces and supports, new state.
 
-use crate::contact::{local_axes, relative_displacement, relative_velocity};
+use contact_bipotential::local::local_axes;
+
+use crate::bonds::{adhesive_energy, carry_on};
+use crate::contact::{in_frame, relative_displacement, relative_velocity};
 use crate::monitor::Check;
 use crate::report::{EnergyTerms, Resultant, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
-use crate::state::{ContactState, ContactStatus, State};
+use crate::state::{BondState, ContactState, ContactStatus, State};
 use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};
 
@@ -35,6 +38,9 @@ impl Stepper<'_> {
         let mut energy = bulk_terms(frame, &trial, &support_force);
         contact_terms(frame, &trial, &moved, &contacts, cone, &mut energy);
         let positions = model.positions(&trial.u);
+        let bonds = carry_on(frame, &trial, &positions);
+        let adhesive = adhesive_energy(model, &bonds);
+        bond_terms(frame, &trial, adhesive, &mut energy);
         // A gap of the size of the round-off of the positions is closed, with or without a force.
         let touching = 64.0 * f64::EPSILON * positions.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let report = StepReport {
@@ -68,6 +74,8 @@ impl Stepper<'_> {
             support_force,
             contact_force: trial.contact_force,
             contacts,
+            bonds,
+            adhesive_energy: adhesive,
             last_dt: Some(frame.dt),
             u_before: frame.now.u.clone(),
         };
@@ -167,18 +175,41 @@ fn contact_terms(
             dot(&r[..cone - 1], &dx[..cone - 1]),
             r[cone - 1] * dx[cone - 1],
         );
+        let bond = contacts[k].bond.map_or([0.0; 3], |bond| bond.force);
+        let slip = contacts[k].slip;
         let global = global_force(&contacts[k]);
         terms.load_work += dot(&global, &c.obstacle_motion);
-        terms.friction -= tangential;
+        terms.friction -= tangential - bond[0] * slip[0] - bond[1] * slip[1];
         match frame.model.scheme.contact {
             ContactLevel::Velocity => terms.impact -= normal,
             ContactLevel::Position => {
                 let start = gap_before(frame.now, &contacts[k]).unwrap_or(c.gap - dx[cone - 1]);
-                let closing = r[cone - 1] * (start - c.gap);
-                terms.impact += closing;
-                terms.gap_error -= normal + closing;
+                let closing = start - c.gap;
+                terms.impact += (r[cone - 1] - bond[2]) * closing;
+                terms.gap_error -= normal + r[cone - 1] * closing;
+                // What the bond is told about its start and where the pair started may differ for a new pair.
+                terms.bond_error += bond[2] * (closing - bond_closing(trial, k));
             }
         }
+    }
+}
+
+/// How far a contact closed since the start that its bond remembers \[m\].
+fn bond_closing(trial: &Trial, k: usize) -> f64 {
+    let gap = trial.map.contacts[k].gap.max(0.0);
+    trial.bonds.get(k).map_or(0.0, |b| b.start().gap - gap)
+}
+
+/// Adhesive energy, dissipation and integration error of the bonds. Bonds of pairs that the search has lost
+/// are gone; what they stored counts as an error of the integration.
+fn bond_terms(frame: &StepFrame<'_>, trial: &Trial, adhesive: f64, terms: &mut EnergyTerms) {
+    terms.adhesive = adhesive - frame.now.adhesive_energy;
+    terms.bond_error -= terms.adhesive;
+    let cone = trial.map.cone().dim();
+    for (bond, x) in trial.bonds.iter().zip(trial.x.chunks_exact(cone)) {
+        let energy = bond.energy(&in_frame(x));
+        terms.bond += energy.dissipated;
+        terms.bond_error += energy.work - energy.dissipated;
     }
 }
 
@@ -211,9 +242,22 @@ fn contact_states(
                 force[axis] = trial.r[cone * k + i];
                 motion[axis] = moved[cone * k + i];
             }
-            let mu = frame.model.interfaces[c.interface].mu;
-            let on_cone = force[0].hypot(force[1]) >= mu * force[2] * (1.0 - 1e-9);
-            let status = if force[2] <= 1e-12 * force_scale {
+            let mut mu = frame.model.interfaces[c.interface].mu;
+            let adhesive = frame.model.interfaces[c.interface].adhesion.is_some();
+            let x = in_frame(&trial.x[cone * k..cone * (k + 1)]);
+            let bond = trial.bonds.get(k).filter(|_| adhesive).map(|bond| {
+                let at = bond.at(&x);
+                mu = bond.friction(mu, at.intensity);
+                BondState {
+                    intensity: at.intensity,
+                    separation: bond.finish(&x).separation,
+                    force: at.force,
+                }
+            });
+            let pull = bond.map_or([0.0; 3], |bond| bond.force);
+            let dry: [f64; 3] = std::array::from_fn(|i| force[i] - pull[i]);
+            let on_cone = dry[0].hypot(dry[1]) >= mu * dry[2] * (1.0 - 1e-9);
+            let status = if dry[2] <= 1e-12 * force_scale {
                 ContactStatus::Open
             } else if on_cone {
                 ContactStatus::Slip
@@ -230,6 +274,7 @@ fn contact_states(
                 force,
                 frame: c.frame,
                 status,
+                bond,
             }
         })
         .collect()

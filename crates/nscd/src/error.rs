@@ -38,6 +38,14 @@ pub enum NscdError {
         "velocity-level contact needs inertia; use position-level contact for a quasi-static run"
     )]
     VelocityWithoutInertia,
+    /// Bonds need gaps, which velocity-level contact does not keep.
+    #[error(
+        "interface \"{interface}\" has adhesion, which needs position-level contact: use it instead of the velocity level"
+    )]
+    AdhesionAtVelocity {
+        /// Name of the interface.
+        interface: String,
+    },
     /// Element or mesh trouble outside a step.
     #[error(transparent)]
     Element(#[from] fe_core::FeError),
@@ -141,6 +149,17 @@ pub enum StepFailure {
         travel: f64,
         /// Reach of the search \[m\].
         reach: f64,
+    },
+    /// A bond softens faster than anything can follow: more than one end of the step satisfies the law.
+    #[error(
+        "the interface snaps at {contact}: its bond softens faster than its viscosity over {dt:e} s and the body around it can \
+         follow; try smaller steps, a larger b, inertia, or a stiffer or finer body there"
+    )]
+    Snap {
+        /// The contact.
+        contact: String,
+        /// Length of the step \[s\].
+        dt: f64,
     },
     /// Something became infinite or not a number.
     #[error("a force at node {node} is not finite; try smaller steps")]

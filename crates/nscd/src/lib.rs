@@ -8,6 +8,7 @@
 //! or without inertia. Every step ends with an energy audit whose terms all have their own formula.
 
 mod body;
+mod bonds;
 mod contact;
 mod energy;
 mod error;
@@ -34,5 +35,5 @@ pub use report::{
 };
 pub use scheme::{ContactLevel, Inertia, Scheme};
 pub use settings::Settings;
-pub use state::{ContactState, ContactStatus, State};
+pub use state::{BondState, ContactState, ContactStatus, NodeBond, State};
 pub use stepper::Stepper;

@@ -72,7 +72,7 @@ pub fn march(
     totals: &mut Totals,
     observer: &mut dyn Observer,
 ) -> Result<(), NscdError> {
-    totals.initial_energy = state.kinetic_energy + state.strain_energy;
+    totals.initial_energy = state.kinetic_energy + state.strain_energy + state.adhesive_energy;
     let mut control = Control::new(stepper.model(), span);
     while let Some(dt) = control.next(state.time) {
         match stepper.step(state, dt) {

@@ -31,6 +31,8 @@ pub struct Counters {
     pub contact_iterations: u64,
     /// Largest number of contacts in one contact problem.
     pub contacts_max: u64,
+    /// Contact problems that held bonds.
+    pub bonded_solves: u64,
 }
 
 /// Part of the work that a time is booked on.
@@ -107,12 +109,14 @@ pub struct EnergyTerms {
     pub scheme_error: f64,
     /// Loss because gaps are curved: `-r_n (n . dX - (g_1 - g_0))` \[J\].
     pub gap_error: f64,
+    /// Loss by the integration of the bonds: their work minus what they store and dissipate \[J\].
+    pub bond_error: f64,
 }
 
 impl EnergyTerms {
     /// All that the discretisation loses (positive) or gains (negative) \[J\].
     pub fn integration_error(&self) -> f64 {
-        self.bulk_error + self.scheme_error + self.gap_error
+        self.bulk_error + self.scheme_error + self.gap_error + self.bond_error
     }
 
     /// What the balance leaves open \[J\]: zero but for the tolerance of Newton's iteration.
@@ -136,6 +140,7 @@ impl EnergyTerms {
         self.bulk_error += other.bulk_error;
         self.scheme_error += other.scheme_error;
         self.gap_error += other.gap_error;
+        self.bond_error += other.bond_error;
     }
 }
 

@@ -23,6 +23,10 @@ pub struct State {
     pub contact_force: Vec<f64>,
     /// State of each contact in the last step, in the order (interface, slave node).
     pub contacts: Vec<ContactState>,
+    /// Bond of each slave node of each interface; empty for an interface without adhesion.
+    pub bonds: Vec<Vec<NodeBond>>,
+    /// Free energy of all bonds \[J\].
+    pub adhesive_energy: f64,
     /// Length of the step that led here \[s\]; `None` at the start.
     pub last_dt: Option<f64>,
     /// Displacement at the start of the last step \[m\]; equals `u` at the start.
@@ -48,8 +52,34 @@ pub struct ContactState {
     pub force: [f64; 3],
     /// Unit vectors t1, t2, n of the local frame.
     pub frame: [[f64; 3]; 3],
-    /// What the contact does.
+    /// What the contact does, apart from its bond.
     pub status: ContactStatus,
+    /// Its bond; `None` on an interface without adhesion.
+    pub bond: Option<BondState>,
+}
+
+/// The bond of a contact at the end of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BondState {
+    /// Intensity `beta` \[-\]: 0 broken, 1 intact.
+    pub intensity: f64,
+    /// Tangential separation since bonding along (t1, t2) \[m\].
+    pub separation: [f64; 2],
+    /// The part of [`ContactState::force`] that the bond makes \[N\].
+    pub force: [f64; 3],
+}
+
+/// What a slave node remembers of its bond from step to step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct NodeBond {
+    /// Intensity `beta` \[-\].
+    pub intensity: f64,
+    /// Gap, not negative \[m\].
+    pub gap: f64,
+    /// Tangential separation since bonding, along two axes that turn with the master's material \[m\].
+    pub separation: [f64; 2],
+    /// Facet of the master to which those axes belong; `None` for an obstacle.
+    pub facet: Option<u32>,
 }
 
 /// What a contact does.

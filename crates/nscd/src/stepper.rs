@@ -4,6 +4,7 @@ use contact_bipotential::{ContactMap, Detector};
 use fe_core::{ElementWorkspace, FeError, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
+use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
 use crate::contact::{ContactMemory, LinearisedContact, cone_of, local_variable};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
@@ -49,6 +50,7 @@ impl<'m> Stepper<'m> {
             neighbours: &neighbours,
         };
         refuse_unsupported(model, &fixed)?;
+        refuse_velocity_level(model)?;
         let bodies = (0..model.solid.bodies().len())
             .map(|b| BodySystem::new(&model.solid, graph, b, &fixed, &candidate))
             .collect::<Result<_, _>>()?;
@@ -104,9 +106,12 @@ impl<'m> Stepper<'m> {
                 .internal_force(&u, &mut self.work, &mut internal_force)?;
         let mut external_force = vec![0.0; n];
         self.model.external_force(0.0, &mut external_force);
+        let bonds = self.initial_bonds(&u);
         Ok(State {
             time: 0.0,
             kinetic_energy: self.model.kinetic_energy(&velocity),
+            adhesive_energy: adhesive_energy(self.model, &bonds),
+            bonds,
             u_before: u.clone(),
             u,
             v: velocity,
@@ -134,6 +139,7 @@ impl<'m> Stepper<'m> {
             let check = monitor.check(self, &frame, &trial)?;
             if check.converged {
                 self.refuse_tunnelling(&frame, &trial)?;
+                self.memory.refuse_snap(&frame, &trial)?;
                 return Ok(self.accept(&frame, trial, &check));
             }
             if check.iteration == self.model.settings.newton_iterations {
@@ -165,6 +171,7 @@ impl<'m> Stepper<'m> {
             damping_force: zeros(),
             balance: zeros(),
             map: ContactMap::new(Vec::new(), self.model.solid.dim(), cone_of(self.model)),
+            bonds: Vec::new(),
             x: Vec::new(),
             r: Vec::new(),
             contact_force: zeros(),
@@ -222,6 +229,7 @@ impl<'m> Stepper<'m> {
         {
             let found = self.detect(frame, &trial.u);
             trial.map = self.memory.settle_rims(found);
+            trial.bonds = bond_steps(frame, &trial.map, &trial.u);
         }
         trial.x = local_variable(frame, &trial.map, self.memory.cone, &trial.u, &trial.v);
         trial.r = self.memory.recall(&trial.map);
@@ -335,9 +343,11 @@ impl<'m> Stepper<'m> {
         let cone = self.memory.cone;
         let mut moved = vec![0.0; trial.x.len()];
         trial.map.apply(z, &mut moved);
-        (0..trial.map.contacts.len())
-            .map(|k| cone * k + cone - 1)
-            .all(|n| trial.x[n] + moved[n] >= 0.0)
+        (0..trial.map.contacts.len()).all(|k| {
+            let n = cone * k + cone - 1;
+            let gap = trial.x[n] + moved[n];
+            gap >= 0.0 && !trial.bonds.get(k).is_some_and(|bond| bond.may_act(gap))
+        })
     }
 
     /// Moves the iterate; a correction that turns an element inside out is halved.

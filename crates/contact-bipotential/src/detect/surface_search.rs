@@ -1,4 +1,6 @@
 //! Closest point on a deformable surface: tree of padded boxes, exact facets, rims.
+//!
+//! In the plane the surface is a chain of lines in z = 0, its boxes are flat and its rims are the ends of the chain.
 
 use fe_core::Surface;
 use parry3d_f64::bounding_volume::Aabb;
@@ -85,14 +87,17 @@ impl Extent {
 pub(super) struct SurfaceSearch {
     reach: f64,
     rim_tolerance: f64,
+    dim: usize,
     nodes: Vec<u32>,
     /// Surface indices of each facet's nodes, and how many.
     facets: Vec<([u32; 4], u8)>,
-    /// Bit `k`: edge `k` of the facet belongs to no other facet.
-    rim_edges: Vec<u8>,
-    /// Rim edges (facet, edge) at each surface node: `rims[rim_starts[i]..rim_starts[i + 1]]`.
+    /// Bit `k`: side `k` of the facet (edge of a face, vertex of a line) belongs to no other facet.
+    rim_sides: Vec<u8>,
+    /// Rim sides (facet, side) at each surface node: `rims[rim_starts[i]..rim_starts[i + 1]]`.
     rim_starts: Vec<usize>,
     rims: Vec<(u32, u8)>,
+    /// Surface indices of the nodes on the axis of symmetry.
+    axis: Vec<usize>,
     points: Vec<Vec3>,
     normals: Vec<Vec3>,
     boxes: Vec<Extent>,
@@ -118,16 +123,18 @@ impl SurfaceSearch {
                 (local, corners.len() as u8)
             })
             .collect();
-        let rim_edges = rim_edges(&facets);
-        let (rim_starts, rims) = rims_at_nodes(&facets, &rim_edges, surface.nodes.len());
+        let rim_sides = rim_sides(&facets);
+        let (rim_starts, rims) = rims_at_nodes(&facets, &rim_sides, surface.nodes.len());
         Self {
             reach,
             rim_tolerance,
+            dim: surface.dim(),
             nodes: surface.nodes.clone(),
             facets,
-            rim_edges,
+            rim_sides,
             rim_starts,
             rims,
+            axis: Vec::new(),
             points: Vec::new(),
             normals: Vec::new(),
             boxes: Vec::new(),
@@ -136,13 +143,26 @@ impl SurfaceSearch {
         }
     }
 
+    /// Continues a chain across x = 0 by its mirror image: its ends there are no rims, and their normals run along y.
+    pub(super) fn mirror_at_axis(&mut self, is_on_axis: impl Fn(u32) -> bool) {
+        let on_axis: Vec<bool> = self.nodes.iter().map(|node| is_on_axis(*node)).collect();
+        for ((corners, count), mask) in self.facets.iter().zip(&mut self.rim_sides) {
+            for (k, corner) in corners[..*count as usize].iter().enumerate() {
+                *mask &= !(u8::from(on_axis[*corner as usize]) << k);
+            }
+        }
+        (self.rim_starts, self.rims) =
+            rims_at_nodes(&self.facets, &self.rim_sides, self.nodes.len());
+        self.axis = (0..on_axis.len()).filter(|i| on_axis[*i]).collect();
+    }
+
     /// Reads the surface's positions out of the flat array of the mesh.
     pub(super) fn gather(&mut self, positions: &[f64]) {
         self.points.clear();
         self.points.extend(
             self.nodes
                 .iter()
-                .map(|node| node_vector(positions, 3, *node)),
+                .map(|node| node_vector(positions, self.dim, *node)),
         );
     }
 
@@ -183,6 +203,10 @@ impl SurfaceSearch {
     /// Unit normals at the surface nodes, by surface index.
     pub(super) fn set_normals(&mut self, normals: Vec<Vec3>) {
         self.normals = normals;
+        for i in &self.axis {
+            let along = [0.0, self.normals[*i][1], 0.0];
+            self.normals[*i] = unit(along).unwrap_or([0.0; 3]);
+        }
     }
 
     /// Facets that may be closest to `x`, with the squared distances of their boxes; a superset.
@@ -297,30 +321,30 @@ impl SurfaceSearch {
     fn without_overhang(&self, mut offset: Vec3, facet: u32, at: &FacetPoint) -> Option<Vec3> {
         match at.place {
             Place::Interior => Some(offset),
-            Place::Edge(k) if self.rim_edges[facet as usize] & (1 << k) == 0 => Some(offset),
+            Place::Edge(k) if self.rim_sides[facet as usize] & (1 << k) == 0 => Some(offset),
             Place::Edge(k) => {
                 offset = self.clip(offset, facet, k as usize, at.coordinates)?;
                 Some(offset)
             }
             Place::Vertex(k) => {
                 let node = self.facets[facet as usize].0[k as usize] as usize;
-                for (facet, edge) in &self.rims[self.rim_starts[node]..self.rim_starts[node + 1]] {
+                for (facet, side) in &self.rims[self.rim_starts[node]..self.rim_starts[node + 1]] {
                     let (corners, count) = &self.facets[*facet as usize];
                     let own = corners
                         .iter()
                         .position(|c| *c as usize == node)
                         .unwrap_or(0);
                     let coordinates = vertex_coordinates(*count as usize, own);
-                    offset = self.clip(offset, *facet, *edge as usize, coordinates)?;
+                    offset = self.clip(offset, *facet, *side as usize, coordinates)?;
                 }
                 Some(offset)
             }
         }
     }
 
-    fn clip(&self, offset: Vec3, facet: u32, edge: usize, coordinates: [f64; 2]) -> Option<Vec3> {
+    fn clip(&self, offset: Vec3, facet: u32, side: usize, coordinates: [f64; 2]) -> Option<Vec3> {
         let mut buffer = [[0.0; 3]; 4];
-        let outward = conormal(self.vertices(facet, &mut buffer), edge, coordinates);
+        let outward = conormal(self.vertices(facet, &mut buffer), side, coordinates);
         let overhang = dot(offset, outward).max(0.0);
         let tolerance = self.rim_tolerance * self.boxes[facet as usize].size();
         (overhang <= tolerance).then(|| axpy(offset, -overhang, outward))
@@ -341,24 +365,28 @@ fn node_distance_squared(node: &BvhNode, x: Vec3) -> f64 {
     .distance_squared(x)
 }
 
-fn edge_nodes((corners, count): &([u32; 4], u8), k: usize) -> (u32, u32) {
+/// The nodes of side `k` of a facet, the same for all facets that share it: an edge of a face, a vertex of a line
+/// (twice). A collapsed side (a quadrilateral with two equal nodes) bounds nothing.
+fn side_nodes((corners, count): &([u32; 4], u8), k: usize) -> Option<(u32, u32)> {
     let (a, b) = (corners[k], corners[(k + 1) % *count as usize]);
-    (a.min(b), a.max(b))
+    match (a == b, *count) {
+        (true, _) => None,
+        (false, 2) => Some((a, a)),
+        (false, _) => Some((a.min(b), a.max(b))),
+    }
 }
 
-/// Bit mask per facet of the edges that no other facet shares.
-fn rim_edges(facets: &[([u32; 4], u8)]) -> Vec<u8> {
-    let mut edges: Vec<((u32, u32), usize, usize)> = Vec::new();
+/// Bit mask per facet of the sides that no other facet shares.
+fn rim_sides(facets: &[([u32; 4], u8)]) -> Vec<u8> {
+    let mut sides: Vec<((u32, u32), usize, usize)> = Vec::new();
     for (f, facet) in facets.iter().enumerate() {
-        edges.extend((0..facet.1 as usize).map(|k| (edge_nodes(facet, k), f, k)));
+        let own = (0..facet.1 as usize).filter_map(|k| Some((side_nodes(facet, k)?, f, k)));
+        sides.extend(own);
     }
-    edges.sort_unstable();
+    sides.sort_unstable();
     let mut mask = vec![0; facets.len()];
-    for same in edges.chunk_by(|a, b| a.0 == b.0) {
-        // An edge of length zero (a quadrilateral with two equal nodes) is no rim.
-        if let [(nodes, f, k)] = same
-            && nodes.0 != nodes.1
-        {
+    for same in sides.chunk_by(|a, b| a.0 == b.0) {
+        if let [(_, f, k)] = same {
             mask[*f] |= 1 << k;
         }
     }
@@ -367,17 +395,19 @@ fn rim_edges(facets: &[([u32; 4], u8)]) -> Vec<u8> {
 
 fn rims_at_nodes(
     facets: &[([u32; 4], u8)],
-    rim_edges: &[u8],
+    rim_sides: &[u8],
     nodes: usize,
 ) -> (Vec<usize>, Vec<(u32, u8)>) {
     let mut all: Vec<(u32, u32, u8)> = Vec::new();
     for (f, facet) in facets.iter().enumerate() {
-        for k in (0..facet.1 as usize).filter(|k| rim_edges[f] & (1 << k) != 0) {
-            let (a, b) = edge_nodes(facet, k);
-            all.extend([(a, f as u32, k as u8), (b, f as u32, k as u8)]);
+        for k in (0..facet.1 as usize).filter(|k| rim_sides[f] & (1 << k) != 0) {
+            if let Some((a, b)) = side_nodes(facet, k) {
+                all.extend([(a, f as u32, k as u8), (b, f as u32, k as u8)]);
+            }
         }
     }
     all.sort_unstable();
+    all.dedup();
     let mut starts = vec![0; nodes + 1];
     for (node, ..) in &all {
         starts[*node as usize + 1] += 1;

@@ -300,3 +300,4 @@ proptest! {
 }
 
 mod cases;
+mod plane;

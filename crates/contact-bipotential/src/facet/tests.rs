@@ -243,3 +243,55 @@ fn conormals_point_out_of_the_facet() {
         assert!(norm(sub(conormal(&x, k, vertex_coordinates(4, k)), expected[k])) < 1e-15);
     }
 }
+
+fn in_plane(size: f64) -> impl Strategy<Value = Vec3> {
+    (-size..size, -size..size).prop_map(|(x, y)| [x, y, 0.0])
+}
+
+fn flat_line() -> impl Strategy<Value = [Vec3; 2]> {
+    let long = |[a, b]: &[Vec3; 2]| norm(sub(*a, *b)) > 0.1;
+    [in_plane(3.0), in_plane(3.0)].prop_filter("needs a length", long)
+}
+
+proptest! {
+    #[test]
+    fn the_closest_point_of_a_line_is_the_brute_force_minimum(
+        x in flat_line(), p in in_plane(5.0),
+    ) {
+        let c = closest_point(&x, p);
+        let d = c.distance_squared.sqrt();
+        let on_line = |t: f64| axpy(x[0], t, sub(x[1], x[0]));
+        let sampled = (0..=1000).map(|k| norm(sub(on_line(f64::from(k) * 1e-3), p))).fold(f64::INFINITY, f64::min);
+        prop_assert!(d <= sampled * (1.0 + 1e-12));
+        prop_assert!(sampled - d <= 1e-3 * norm(sub(x[1], x[0])));
+        let [a, b, ..] = c.weights;
+        prop_assert_eq!(c.weights[2..].iter().sum::<f64>(), 0.0);
+        prop_assert!(a >= 0.0 && b >= 0.0 && (a + b - 1.0).abs() < 1e-15);
+        prop_assert!(norm(sub(axpy(scale(a, x[0]), b, x[1]), c.point)) < 1e-14);
+        prop_assert!((norm(sub(c.point, p)) - d).abs() < 1e-14);
+        match c.place {
+            Place::Interior => {
+                let m = facet_normal(&x, c.coordinates).unwrap();
+                prop_assert!(a > 0.0 && b > 0.0);
+                prop_assert!((dot(m, sub(p, c.point)).abs() - d).abs() < 1e-13);
+            }
+            Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
+            Place::Edge(_) => prop_assert!(false, "a line has no edges"),
+        }
+    }
+}
+
+#[test]
+fn a_line_has_its_body_on_the_left_and_ends_in_points() {
+    let x = [[0.0; 3], [2.0, 0.0, 0.0]];
+    assert_eq!(facet_normal(&x, [0.5, 0.0]), Some([0.0, -1.0, 0.0]));
+    assert_eq!(conormal(&x, 0, [0.0; 2]), [-1.0, 0.0, 0.0]);
+    assert_eq!(conormal(&x, 1, vertex_coordinates(2, 1)), [1.0, 0.0, 0.0]);
+    let place = |p| closest_point(&x, p).place;
+    assert_eq!(place([-1.0, 1.0, 0.0]), Place::Vertex(0));
+    assert_eq!(place([0.5, -1.0, 0.0]), Place::Interior);
+    assert_eq!(place([2.5, 0.0, 0.0]), Place::Vertex(1));
+    let collapsed = [x[1], x[1]];
+    assert_eq!(closest_point(&collapsed, x[0]).point, x[1]);
+    assert_eq!(facet_normal(&collapsed, [0.0; 2]), None);
+}

@@ -1,7 +1,7 @@
 //! Signed distances against their defining properties, and the kinematics of moving obstacles.
 
 use super::*;
-use fe_core::{Interpolation, Rotation, Table};
+use fe_core::{Interpolation, Table};
 use proptest::prelude::*;
 
 const CORE: f64 = 1e-12;
@@ -217,5 +217,64 @@ fn centres_have_a_definite_finite_normal() {
         let at = obstacle.over_step(0.0, 0.0).closest(x, 0.0);
         assert_eq!(at.gap, -2.0);
         assert!((norm(at.normal) - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn obstacles_that_leave_the_plane_say_why() {
+    let point = [0.5, 0.5, 0.0];
+    let z = [0.0, 0.0, 1.0];
+    let plane = |normal| Shape::Plane { point, normal };
+    let disc = |height| Shape::Sphere {
+        center: [1.0, 2.0, height],
+        radius: 1.0,
+    };
+    let cylinder = |axis| Shape::Cylinder {
+        point: [0.0, 0.0, 7.0],
+        axis,
+        radius: 1.0,
+    };
+    let wedge = |apex, axis| Shape::Cone {
+        apex,
+        axis,
+        semi_apex_angle: 0.4,
+    };
+    let reason = |shape, motion| Obstacle::new(shape, motion).unwrap().out_of_plane();
+    let still = Motion::still;
+    let accepted = [
+        plane([3.0, 4.0, 0.0]),
+        disc(0.0),
+        cylinder([0.0, 0.0, -2.0]),
+        wedge(point, [1.0, 2.0, 0.0]),
+    ];
+    let refused = [
+        (plane(z), "plane's normal"),
+        (plane([1.0, 0.0, 1e-9]), "plane's normal"),
+        (disc(0.1), "sphere's center"),
+        (cylinder([0.0, 1.0, 0.0]), "cylinder's axis"),
+        (cylinder([0.0, 0.1, 1.0]), "cylinder's axis"),
+        (wedge(point, z), "cone's axis"),
+        (wedge([0.0, 0.0, 0.1], [1.0, 0.0, 0.0]), "cone's apex"),
+    ];
+    for shape in accepted {
+        assert_eq!(reason(shape, still()), None);
+    }
+    for (shape, part) in refused {
+        let reason = reason(shape, still()).unwrap();
+        assert!(
+            reason.contains(part) && reason.contains("plane"),
+            "{reason}"
+        );
+    }
+    let turn = |axis| Motion {
+        rotation: Some(Rotation::new(point, axis, Table::constant(0.3)).unwrap()),
+        ..still()
+    };
+    let lift = |z| Motion::translation([1.0, 2.0, z].map(Table::constant));
+    for motion in [turn(z), turn([0.0, 0.0, -3.0]), lift(0.0)] {
+        assert_eq!(reason(disc(0.0), motion), None);
+    }
+    for motion in [turn([0.0, 1.0, 1.0]), lift(0.1)] {
+        assert!(reason(disc(0.0), motion).unwrap().contains("motion"));
     }
 }

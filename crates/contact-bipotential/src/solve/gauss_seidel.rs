@@ -3,6 +3,8 @@
 use crate::delassus::Delassus;
 use crate::local::{Matrix, Vector, load, store, trace};
 use crate::problem::ContactProblem;
+use crate::rcc::BondStep;
+use crate::solve::bonded::bonded_contact;
 use crate::solve::iterate::{Iterate, Work};
 use crate::solve::local_newton::{joli_feng, predict_correct};
 use crate::solve::mixing::Mixer;
@@ -24,6 +26,7 @@ pub(crate) enum Kernel {
 #[derive(Debug)]
 pub(crate) struct Sweeper<'a, const D: usize> {
     problem: &'a ContactProblem,
+    bonds: &'a [BondStep],
     kernel: Kernel,
     blocks: Vec<SingleContact<D>>,
     diagonals: Vec<Matrix<D>>,
@@ -31,12 +34,22 @@ pub(crate) struct Sweeper<'a, const D: usize> {
 
 impl<'a, const D: usize> Sweeper<'a, D> {
     pub(crate) fn new(problem: &'a ContactProblem, kernel: Kernel) -> Self {
+        Self::bonded(problem, &[], kernel)
+    }
+
+    /// The same with a bond at each contact, or none at all; a bonded contact is always solved exactly.
+    pub(crate) fn bonded(
+        problem: &'a ContactProblem,
+        bonds: &'a [BondStep],
+        kernel: Kernel,
+    ) -> Self {
         let diagonals: Vec<_> = (0..problem.contacts())
             .map(|c| problem.w.diagonal::<D>(c))
             .collect();
         let blocks = diagonals.iter().map(SingleContact::new).collect();
         Sweeper {
             problem,
+            bonds,
             kernel,
             blocks,
             diagonals,
@@ -82,6 +95,7 @@ impl<'a, const D: usize> Sweeper<'a, D> {
         let mu = self.problem.mu[c];
         let scale = trace(w) / D as f64;
         let new = match self.kernel {
+            Kernel::Exact if !self.bonds.is_empty() => bonded_contact(w, &b, mu, &self.bonds[c]),
             Kernel::Exact => self.blocks[c].solve(&b, mu).r,
             Kernel::PredictCorrect => predict_correct(w, scale, &b, mu, r),
             Kernel::JoliFeng => joli_feng(w, scale, &b, mu, r),

@@ -11,13 +11,14 @@ use faer::perm::PermRef;
 use faer::{Mat, MatMut, Par};
 
 use crate::cone::Cone;
-use crate::delassus::Delassus;
-use crate::local::{Vector, dot, load, store};
+use crate::delassus::{Delassus, dense_times};
+use crate::local::{Matrix, Vector, affine, dot, load, local_axes, store};
 use crate::problem::ContactProblem;
+use crate::rcc::BondStep;
 use crate::solve::iterate::{Iterate, Work};
 use crate::solve::newton::{Mode, across, backtrack};
-use crate::solve::{Method, Outcome, SolveSettings, finish, solve};
-use crate::truth::Truth;
+use crate::solve::{Method, Outcome, SolveSettings, finish, solve_bonded};
+use crate::truth::{Dry, Truth};
 
 /// Problems with fewer rows are not worth the memory: their factorisation is cheap.
 const SMALLEST: usize = 90;
@@ -42,42 +43,45 @@ pub struct SequenceSolver {
 }
 
 impl SequenceSolver {
-    /// As [`solve`]; [`Method::Auto`] tries Newton's method with the remembered factors first.
+    /// As [`solve_bonded`]; [`Method::Auto`] tries Newton's method with the remembered factors first.
     pub fn solve(
         &mut self,
         problem: &ContactProblem,
+        bonds: &[BondStep],
         r: &mut Vec<f64>,
         settings: &SolveSettings,
     ) -> Outcome {
-        let sized =
-            r.len() == problem.q.len() && r.len() >= SMALLEST && r.iter().all(|x| x.is_finite());
+        let pays = r.len() >= SMALLEST || !bonds.is_empty();
+        let sized = r.len() == problem.q.len() && pays && r.iter().all(|x| x.is_finite());
         let Delassus::Dense(w) = &problem.w else {
-            return solve(problem, r, settings);
+            return solve_bonded(problem, bonds, r, settings);
         };
         if !sized || settings.method != Method::Auto || problem.check().is_err() {
-            return solve(problem, r, settings);
+            return solve_bonded(problem, bonds, r, settings);
         }
-        let outcome = match problem.cone {
-            Cone::Frictionless => self.attempt::<1>(problem, w, r, settings),
-            Cone::Planar => self.attempt::<2>(problem, w, r, settings),
-            Cone::Spatial => self.attempt::<3>(problem, w, r, settings),
+        let mut attempt = |r: &mut [f64]| match problem.cone {
+            Cone::Frictionless => self.attempt::<1>(problem, bonds, w, r, settings),
+            Cone::Planar => self.attempt::<2>(problem, bonds, w, r, settings),
+            Cone::Spatial => self.attempt::<3>(problem, bonds, w, r, settings),
         };
+        let outcome = attempt(r);
         if outcome.is_converged() {
             return outcome;
         }
-        let mut rest = solve(problem, r, settings);
+        let mut rest = solve_bonded(problem, bonds, r, settings);
         rest.iterations += outcome.iterations;
         rest
     }
 
-    fn attempt<const D: usize>(
+    pub(super) fn attempt<const D: usize>(
         &mut self,
         problem: &ContactProblem,
+        bonds: &[BondStep],
         w: &Mat<f64>,
         r: &mut [f64],
         settings: &SolveSettings,
     ) -> Outcome {
-        let truth = Truth::new(problem);
+        let truth = Truth::bonded(problem, bonds);
         let mut x = Iterate::new(&truth, r);
         let mut best = x.clone();
         let mut work = Work::default();
@@ -85,7 +89,7 @@ impl SequenceSolver {
             && work.newton_steps < NEWTON_STEPS.min(settings.max_iterations)
         {
             work.newton_steps += 1;
-            let system = System::<D>::new(problem, w, truth.scales(), &x);
+            let system = System::<D>::new(&truth, w, &x);
             let Some(dr) = self.step(&system) else { break };
             x = backtrack(&truth, &x, &dr);
             best.keep_better(&x);
@@ -116,47 +120,68 @@ impl SequenceSolver {
 
 /// The linear system of a Newton step with all rows of all contacts.
 struct System<'a, const D: usize> {
-    problem: &'a ContactProblem,
     w: &'a Mat<f64>,
     scales: &'a [f64],
     modes: Vec<Mode<D>>,
+    /// Friction coefficient and the part of the reaction that the law governs.
+    mu: Vec<f64>,
+    dry: Vec<Vector<D>>,
+    /// What the bonds add per change of `u`; empty without bonds.
+    bonds: Vec<BondTangent<D>>,
     x: &'a Iterate,
 }
 
 impl<'a, const D: usize> System<'a, D> {
-    fn new(
-        problem: &'a ContactProblem,
-        w: &'a Mat<f64>,
-        scales: &'a [f64],
-        x: &'a Iterate,
-    ) -> Self {
-        let mode = |c: usize| {
-            Mode::of(
-                problem.mu[c],
-                scales[c],
-                &load::<D>(&x.r, c),
-                &load::<D>(&x.u, c),
-            )
-        };
-        System {
-            problem,
+    fn new(truth: &'a Truth<'_>, w: &'a Mat<f64>, x: &'a Iterate) -> Self {
+        let (scales, count) = (truth.scales(), truth.scales().len());
+        let mut system = System {
             w,
             scales,
-            modes: (0..problem.contacts()).map(mode).collect(),
+            modes: Vec::with_capacity(count),
+            mu: Vec::with_capacity(count),
+            dry: Vec::with_capacity(count),
+            bonds: Vec::new(),
             x,
+        };
+        for c in 0..count {
+            let u = load::<D>(&x.u, c);
+            let dry = truth.dry(c, &load::<D>(&x.r, c), &u);
+            system.modes.push(Mode::of(dry.mu, scales[c], &dry.r, &u));
+            system.mu.push(dry.mu);
+            system.dry.push(dry.r);
+            if !truth.bonds().is_empty() {
+                system.bonds.push(BondTangent::new(&dry));
+            }
         }
+        system
     }
 
-    /// The rows of contact `c` applied to its own `r` and to the velocity `v` that all reactions make.
+    /// The rows of contact `c` applied to the change of its own `r` and to the velocity `v` that all changes make.
     #[inline(always)]
     fn rows(&self, c: usize, r: &Vector<D>, v: &Vector<D>) -> Vector<D> {
+        let Some(bond) = self.bonds.get(c) else {
+            return self.dry_rows(c, r, v);
+        };
+        let mut out = self.dry_rows(c, &affine(&bond.stiffness, v, r), v);
+        if let Mode::Slip { along, .. } = &self.modes[c] {
+            let limit = self.scales[c] * self.dry[c][D - 1] * dot(&bond.friction, v);
+            for i in 0..D - 1 {
+                out[i] -= along[i] * limit;
+            }
+        }
+        out
+    }
+
+    /// The same, with the change of the part of `r` that the law governs.
+    #[inline(always)]
+    fn dry_rows(&self, c: usize, r: &Vector<D>, v: &Vector<D>) -> Vector<D> {
         let scale = self.scales[c];
         match &self.modes[c] {
             Mode::Free => r.map(|x| scale * x),
             Mode::Stick => *v,
             Mode::Slip { along, beta } => {
                 let p = across(along);
-                let excess = scale * (dot(along, r) - self.problem.mu[c] * r[D - 1]);
+                let excess = scale * (dot(along, r) - self.mu[c] * r[D - 1]);
                 let sideways = beta * dot(&p, v) + (1.0 - beta) * scale * dot(&p, r);
                 let mut out = *v;
                 for i in 0..D - 1 {
@@ -168,7 +193,7 @@ impl<'a, const D: usize> System<'a, D> {
     }
 
     fn apply(&self, r: &[f64], v: &mut [f64]) {
-        self.problem.w.times(r, v);
+        dense_times(self.w, r, v);
         for c in 0..self.modes.len() {
             let out = self.rows(c, &load::<D>(r, c), &load::<D>(v, c));
             store(v, c, &out);
@@ -178,8 +203,8 @@ impl<'a, const D: usize> System<'a, D> {
     fn right_side(&self) -> Vec<f64> {
         let mut b = vec![0.0; self.x.r.len()];
         for (c, mode) in self.modes.iter().enumerate() {
-            let (r, u) = (load::<D>(&self.x.r, c), load::<D>(&self.x.u, c));
-            let mut out = self.rows(c, &r, &u);
+            let (r, u) = (self.dry[c], load::<D>(&self.x.u, c));
+            let mut out = self.dry_rows(c, &r, &u);
             if let Mode::Slip { along, .. } = mode {
                 // Across the slip the equation reads `beta p.dv + (1 - beta) w p.dr = -w p.r`.
                 let p = across(along);
@@ -208,6 +233,30 @@ impl<'a, const D: usize> System<'a, D> {
             }
         }
         matrix
+    }
+}
+
+/// Change of what the law governs, per change of `u`.
+struct BondTangent<const D: usize> {
+    /// Of the dry part of the reaction: what the bond lets go.
+    stiffness: Matrix<D>,
+    /// Of the friction coefficient.
+    friction: Vector<D>,
+}
+
+impl<const D: usize> BondTangent<D> {
+    fn new(dry: &Dry<D>) -> Self {
+        let (mut stiffness, mut friction) = ([[0.0; D]; D], [0.0; D]);
+        for (i, a) in local_axes(D).iter().enumerate() {
+            friction[i] = dry.mu_slope * dry.bond.intensity_slope[*a];
+            for (j, b) in local_axes(D).iter().enumerate() {
+                stiffness[i][j] = dry.bond.stiffness[*a][*b];
+            }
+        }
+        BondTangent {
+            stiffness,
+            friction,
+        }
     }
 }
 

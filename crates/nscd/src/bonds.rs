@@ -1,0 +1,187 @@
+//! Bonds from step to step: what a slave node remembers, turned with its master's material.
+
+use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, material_axes};
+
+use crate::contact::{ContactMemory, describe, in_frame};
+use crate::error::{NscdError, StepFailure};
+use crate::model::Model;
+use crate::scheme::ContactLevel;
+use crate::state::NodeBond;
+use crate::stepper::Stepper;
+use crate::trial::{StepFrame, Trial};
+
+/// The round-off of a gap over the size of the positions.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+
+/// Bonds know gaps and separations, velocity-level contact knows neither.
+pub(crate) fn refuse_velocity_level(model: &Model) -> Result<(), NscdError> {
+    let mut adhesive = model.interfaces.iter().filter(|i| i.adhesion.is_some());
+    match (model.scheme.contact, adhesive.next()) {
+        (ContactLevel::Velocity, Some(interface)) => Err(NscdError::AdhesionAtVelocity {
+            interface: interface.name.clone(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Free energy of all bonds \[J\].
+pub(crate) fn adhesive_energy(model: &Model, bonds: &[Vec<NodeBond>]) -> f64 {
+    let of_interface = |(interface, bonds): (&Interface, &Vec<NodeBond>)| -> f64 {
+        let Some(law) = &interface.adhesion else {
+            return 0.0;
+        };
+        let each = bonds.iter().zip(&interface.area);
+        each.map(|(bond, area)| bond.in_frame(bond.separation).energy(law, *area))
+            .sum()
+    };
+    model.interfaces.iter().zip(bonds).map(of_interface).sum()
+}
+
+impl NodeBond {
+    fn in_frame(&self, separation: [f64; 2]) -> Bond {
+        Bond {
+            intensity: self.intensity,
+            gap: self.gap,
+            separation,
+        }
+    }
+}
+
+/// The bond of every contact of a map over the step; empty where no interface has adhesion.
+pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> Vec<BondStep> {
+    let model = frame.model;
+    if model.interfaces.iter().all(|i| i.adhesion.is_none()) {
+        return Vec::new();
+    }
+    let positions = model.positions(u);
+    let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let one = |c: &Contact| {
+        let interface = &model.interfaces[c.interface];
+        let Some(law) = &interface.adhesion else {
+            return BondStep::none();
+        };
+        let node = &frame.now.bonds[c.interface][c.slave_index];
+        let separation = if node.separation == [0.0; 2] {
+            [0.0; 2]
+        } else {
+            let axes = material_axes(
+                interface,
+                node.facet,
+                &positions,
+                model.solid.dim(),
+                frame.end(),
+            );
+            turned(
+                node.separation,
+                [axes[0], axes[1]],
+                [c.frame[0], c.frame[1]],
+            )
+        };
+        let area = interface.area[c.slave_index];
+        BondStep::new(law, area, frame.dt, node.in_frame(separation), roundoff)
+    };
+    map.contacts.iter().map(one).collect()
+}
+
+/// A vector with components in two tangents `from`, in two other tangents `to`; its length is kept.
+fn turned(components: [f64; 2], from: [[f64; 3]; 2], to: [[f64; 3]; 2]) -> [f64; 2] {
+    let global: [f64; 3] =
+        std::array::from_fn(|i| components[0] * from[0][i] + components[1] * from[1][i]);
+    let projected = to.map(|t| (0..3).map(|i| t[i] * global[i]).sum::<f64>());
+    let (length, left) = (
+        components[0].hypot(components[1]),
+        projected[0].hypot(projected[1]),
+    );
+    if left > 0.0 {
+        projected.map(|p| p * (length / left))
+    } else {
+        projected
+    }
+}
+
+/// What every slave node remembers after the step. A pair that the search has lost is a new one when it meets again.
+pub(crate) fn carry_on(
+    frame: &StepFrame<'_>,
+    trial: &Trial,
+    positions: &[f64],
+) -> Vec<Vec<NodeBond>> {
+    let model = frame.model;
+    let mut bonds: Vec<Vec<NodeBond>> = no_bonds(model);
+    let cone = trial.map.cone().dim();
+    let ends = trial.bonds.iter().zip(trial.x.chunks_exact(cone));
+    for (c, (step, x)) in trial.map.contacts.iter().zip(ends) {
+        let interface = &model.interfaces[c.interface];
+        if interface.adhesion.is_none() {
+            continue;
+        }
+        let end = step.finish(&in_frame(x));
+        let axes = material_axes(
+            interface,
+            c.facet,
+            positions,
+            model.solid.dim(),
+            frame.end(),
+        );
+        bonds[c.interface][c.slave_index] = NodeBond {
+            intensity: end.intensity,
+            gap: end.gap,
+            separation: turned(end.separation, [c.frame[0], c.frame[1]], [axes[0], axes[1]]),
+            facet: c.facet,
+        };
+    }
+    bonds
+}
+
+fn no_bonds(model: &Model) -> Vec<Vec<NodeBond>> {
+    let interfaces = model.interfaces.iter();
+    interfaces
+        .map(|i| match i.adhesion {
+            Some(_) => vec![NodeBond::default(); i.slave.len()],
+            None => Vec::new(),
+        })
+        .collect()
+}
+
+impl Stepper<'_> {
+    /// The bonds at the start: those of touching pairs have the initial intensity.
+    pub(crate) fn initial_bonds(&mut self, u: &[f64]) -> Vec<Vec<NodeBond>> {
+        let mut bonds = no_bonds(self.model);
+        if bonds.iter().all(Vec::is_empty) {
+            return bonds;
+        }
+        let positions = self.model.positions(u);
+        let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        for c in self.detector.detect(&positions, 0.0, 0.0).contacts {
+            let Some(law) = &self.model.interfaces[c.interface].adhesion else {
+                continue;
+            };
+            let bond = &mut bonds[c.interface][c.slave_index];
+            bond.gap = c.gap.max(0.0);
+            bond.facet = c.facet;
+            if BondStep::new(law, 1.0, 0.0, Bond::default(), roundoff).touches(c.gap) {
+                bond.intensity = law.initial;
+            }
+        }
+        bonds
+    }
+}
+
+impl ContactMemory {
+    /// A converged step is not believed where another end of it may satisfy the law too.
+    pub(crate) fn refuse_snap(
+        &self,
+        frame: &StepFrame<'_>,
+        trial: &Trial,
+    ) -> Result<(), StepFailure> {
+        let ends = trial.bonds.iter().zip(trial.x.chunks_exact(self.cone));
+        for (k, (bond, x)) in ends.enumerate() {
+            if bond.may_snap(&in_frame(x), self.local_stiffness(&trial.map.contacts[k])) {
+                return Err(StepFailure::Snap {
+                    contact: describe(frame.model, &trial.map, k),
+                    dt: frame.dt,
+                });
+            }
+        }
+        Ok(())
+    }
+}
