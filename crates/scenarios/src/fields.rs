@@ -31,9 +31,8 @@ impl Fields {
         let dim = built.model.solid.dim();
         let stress = stresses(built, state);
         let mut contact_status = vec![0; built.model.solid.node_count()];
-        let mut nodes = vec![NodeContact::NONE; built.model.solid.node_count()];
+        let nodes = NodeContact::all(&built.model, state);
         for c in &state.contacts {
-            nodes[c.node as usize].add(c);
             contact_status[c.node as usize] = match c.status {
                 ContactStatus::Open => 0,
                 ContactStatus::Stick => 1,

@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::build::{Built, build};
 use crate::clock::Stopwatch;
-use crate::contacts::NodeContact;
+use crate::contacts::{self, NodeContact};
 use crate::fields::Fields;
 use crate::output::{Energies, EnergySummary, Force, OutputError, Results, Row, Status, Summary};
 use crate::progress::Progress;
@@ -160,7 +160,7 @@ impl Recorder<'_> {
                     moment: r.moment,
                 })
                 .collect(),
-            bonds: Vec::new(),
+            bonds: contacts::bonds(&self.built.model, state),
             probes: self.probes(state),
         }
     }
@@ -181,7 +181,7 @@ impl Recorder<'_> {
             .values()
             .zip(&self.built.probes);
         let values = probes.flat_map(|(probe, &node)| {
-            let contact = NodeContact::of(&state.contacts, node);
+            let contact = NodeContact::of(&self.built.model, state, node);
             probe.quantities.iter().flat_map(move |q| match q {
                 Quantity::Displacement => vector(&state.u, node),
                 Quantity::Velocity => vector(&state.v, node),
@@ -254,7 +254,7 @@ fn energies(state: &State, totals: &Totals) -> Energies {
     Energies {
         kinetic: state.kinetic_energy,
         strain: state.strain_energy,
-        adhesive: sums.adhesive,
+        adhesive: state.adhesive_energy,
         load_work: sums.load_work,
         friction_dissipation: sums.friction,
         bond_dissipation: sums.bond,
