@@ -1,6 +1,7 @@
 //! From a checked scene to a model: the place where concrete laws and shapes get their names.
 
-use contact_bipotential::{Interface, Master, Obstacle, Shape};
+use contact_bipotential::rcc::{Healing, Reference, Update};
+use contact_bipotential::{Adhesion, Interface, Master, Obstacle, Shape};
 use fe_core::{
     Block, BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation,
     Solid, Surface, Table, solid_block,
@@ -85,7 +86,11 @@ fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
             cells,
             grading,
             element,
-        } = &body.mesh;
+        } = &body.mesh
+        else {
+            let message = "only Box can be built";
+            return Err(loaded.refuse(&format!("bodies.{name}.mesh"), message));
+        };
         let kind = match element {
             spec::Element::Hex8 => CellKind::Hex8,
             spec::Element::Tet4 => CellKind::Tet4,
@@ -252,11 +257,45 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
             Master::Obstacle(obstacle.map_err(|e| e.to_string())?)
         }
     };
+    let adhesion = given.adhesion.as_ref().map(adhesion);
+    if let Some(bonds) = given.adhesion.filter(|bonds| bonds.normal_stiffness > 0.0) {
+        reach = reach.max(BOND_REACH * (bonds.energy / bonds.normal_stiffness).sqrt());
+    }
+    let reach = given.search_distance.unwrap_or(reach);
     let mut interface = Interface::new(name, slave.nodes.clone(), area, master, reach);
+    interface.adhesion = adhesion;
     interface.rim_tolerance = RIM_TOLERANCE;
     interface.mu = given.mu;
     interface.restitution = given.restitution;
     Ok(interface)
+}
+
+/// How far bonds are followed, in lengths `sqrt(w / C_n)` at which they start to break \[-\].
+const BOND_REACH: f64 = 10.0;
+
+fn adhesion(given: &spec::Adhesion) -> Adhesion {
+    Adhesion {
+        normal_stiffness: given.normal_stiffness,
+        tangential_stiffness: given.tangential_stiffness.pair(),
+        energy: given.energy,
+        viscosity: given.viscosity,
+        threshold: given.threshold,
+        healing_gap: given.healing_gap,
+        initial: given.initial,
+        healing: match given.healing {
+            spec::Healing::Recoverable => Healing::Recoverable,
+            spec::Healing::Irreversible => Healing::Irreversible,
+        },
+        reference: match given.reference {
+            spec::Reference::Reset => Reference::Reset,
+            spec::Reference::Ageing => Reference::Ageing,
+        },
+        update: match given.update {
+            spec::Update::SecondOrder => Update::SecondOrder,
+            spec::Update::EnergyConsistent => Update::EnergyConsistent,
+        },
+        bonded_friction: given.bonded_friction,
+    }
 }
 
 /// The rigid shape of a master; a deformable one has none and never comes here.

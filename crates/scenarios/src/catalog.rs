@@ -75,8 +75,18 @@ pub fn load(name_or_file: &str, sets: &[Override]) -> Result<LoadedScene, SceneE
 
 /// Folder for the results when none is given: `out/<scene>`.
 pub fn default_folder(name_or_file: &str) -> PathBuf {
-    let stem = Path::new(name_or_file)
+    Path::new("out").join(stem(name_or_file))
+}
+
+/// Folder for the results of a sweep when none is given: `out/<scene>-sweep`.
+pub fn default_sweep_folder(name_or_file: &str) -> PathBuf {
+    let mut name = stem(name_or_file).to_owned();
+    name.push("-sweep");
+    Path::new("out").join(name)
+}
+
+fn stem(name_or_file: &str) -> &std::ffi::OsStr {
+    Path::new(name_or_file)
         .file_stem()
-        .unwrap_or(name_or_file.as_ref());
-    Path::new("out").join(stem)
+        .unwrap_or(name_or_file.as_ref())
 }

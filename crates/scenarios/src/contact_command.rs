@@ -9,6 +9,7 @@ use clap::builder::TypedValueParser as _;
 use contact_bipotential::{ContactProblem, Method, Outcome, SolveSettings, solve};
 use scenarios::clock::Stopwatch;
 use scenarios::fclib;
+use scenarios::report;
 use serde::Serialize;
 
 use crate::{STOPPED, UNUSABLE, say};
@@ -231,24 +232,9 @@ const HEADS: [&str; 9] = [
 ];
 
 fn table(rows: &[Row]) -> String {
-    let mut lines = vec![HEADS.map(str::to_owned)];
-    lines.extend(rows.iter().map(cells));
-    let width = |k: usize| lines.iter().map(|l| l[k].chars().count()).max();
-    let widths: Vec<usize> = (0..HEADS.len()).map(|k| width(k).unwrap_or(0)).collect();
-    let mut text = String::new();
-    for line in &lines {
-        let mut row = String::new();
-        for (k, cell) in line.iter().enumerate() {
-            let width = widths[k];
-            // Words to the left, numbers to the right.
-            let _ = match k {
-                0 | 2 | 6 => write!(row, "{cell:<width$}  "),
-                _ => write!(row, "{cell:>width$}  "),
-            };
-        }
-        text += row.trim_end();
-        text.push('\n');
-    }
+    let mut lines = vec![HEADS.map(str::to_owned).to_vec()];
+    lines.extend(rows.iter().map(|row| cells(row).to_vec()));
+    let mut text = report::columns(&lines, &[0, 2, 6]);
     for row in rows {
         if let Some(reason) = &row.reason {
             let _ = writeln!(text, "{}: {}: {reason}", row.status, row.file);

@@ -4,6 +4,7 @@ use fe_core::{CellKind, ElementState};
 use nscd::{ContactStatus, State};
 
 use crate::build::Built;
+use crate::contacts::NodeContact;
 use crate::output::{Array, CellShape, Cells, Frame, Values};
 
 /// Fields of one state in the layout of the files.
@@ -13,17 +14,24 @@ pub struct Fields {
     velocity: Vec<f64>,
     contact_force: Vec<f64>,
     contact_status: Vec<i32>,
+    gap: Vec<f64>,
+    beta: Vec<f64>,
+    adhesion_force: Vec<f64>,
+    normal_force: Vec<f64>,
+    tangential_force: Vec<f64>,
     von_mises: Vec<f64>,
     cauchy: Vec<f64>,
     body: Vec<i32>,
 }
 
 impl Fields {
-    /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip.
+    /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip. The gap of a node without a contact
+    /// near is NaN.
     pub fn new(built: &Built, state: &State) -> Fields {
         let dim = built.model.solid.dim();
         let stress = stresses(built, state);
         let mut contact_status = vec![0; built.model.solid.node_count()];
+        let nodes = NodeContact::all(&built.model, state);
         for c in &state.contacts {
             contact_status[c.node as usize] = match c.status {
                 ContactStatus::Open => 0,
@@ -37,6 +45,11 @@ impl Fields {
             velocity: spatial(&state.v, dim),
             contact_force: spatial(&state.contact_force, dim),
             contact_status,
+            gap: nodes.iter().map(|n| n.gap).collect(),
+            beta: nodes.iter().map(|n| n.beta).collect(),
+            adhesion_force: nodes.iter().flat_map(|n| n.bond_force).collect(),
+            normal_force: nodes.iter().map(|n| n.normal).collect(),
+            tangential_force: nodes.iter().map(|n| n.tangential).collect(),
             von_mises: stress.iter().map(|s| s.von_mises).collect(),
             cauchy: stress.iter().flat_map(|s| s.cauchy).collect(),
             body: blocks
@@ -69,6 +82,14 @@ impl Fields {
                 array("velocity", Values::Vector(&self.velocity)),
                 array("contact_force", Values::Vector(&self.contact_force)),
                 array("contact_status", Values::Integer(&self.contact_status)),
+                array("gap", Values::Scalar(&self.gap)),
+                array("beta", Values::Scalar(&self.beta)),
+                array("adhesion_force", Values::Vector(&self.adhesion_force)),
+                array("contact_normal_force", Values::Scalar(&self.normal_force)),
+                array(
+                    "contact_tangential_force",
+                    Values::Scalar(&self.tangential_force),
+                ),
             ],
             cell_data: vec![
                 array("von_mises", Values::Scalar(&self.von_mises)),

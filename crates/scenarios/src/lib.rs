@@ -6,6 +6,7 @@
 pub mod build;
 pub mod catalog;
 pub mod clock;
+pub mod contacts;
 pub mod fclib;
 pub mod fields;
 pub mod output;
@@ -13,3 +14,4 @@ pub mod progress;
 pub mod report;
 pub mod run;
 pub mod spec;
+pub mod sweep;

@@ -1,10 +1,13 @@
 //! `setae`: soft bodies in contact, from a scene to audited results.
 
 mod contact_command;
+mod sweep_command;
 
 use std::io::{IsTerminal as _, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,8 +16,10 @@ use scenarios::catalog;
 use scenarios::output::Status;
 use scenarios::progress::Progress;
 use scenarios::report;
-use scenarios::run::RunError;
+use scenarios::run::{Options, RunError};
 use scenarios::spec::{Override, SceneError};
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag::{register, register_conditional_shutdown};
 
 /// Soft bodies in contact: impact, friction and adhesion at finite strain.
 #[derive(Parser)]
@@ -71,6 +76,11 @@ enum Command {
         #[arg(long)]
         quiet: bool,
     },
+    /// Compute all combinations of values and collect them in one table.
+    #[command(
+        after_help = "Exit code: 0 all runs completed, 1 some did not, 2 the input or the output folder is unusable."
+    )]
+    Sweep(sweep_command::Arguments),
     /// Solve contact problems of any code.
     #[command(after_help = "Exit code: 0 all are solved, 1 some are not, 2 some cannot be read.")]
     Contact(contact_command::Arguments),
@@ -103,6 +113,7 @@ fn main() -> ExitCode {
             let dump = dump_contact.map(|n| n as usize);
             run(&scene, folder, &sets, threads, dump, quiet)
         }
+        Command::Sweep(arguments) => sweep_command::run(&arguments),
         Command::Contact(arguments) => Ok(contact_command::run(&arguments)),
     };
     done.unwrap_or_else(|failure| {
@@ -114,6 +125,8 @@ fn main() -> ExitCode {
 /// An error that ends the program.
 enum Failure {
     Scene(Box<SceneError>),
+    /// A combination of a sweep, and what is wrong with it.
+    Combination(String, Box<SceneError>),
     Other(String),
 }
 
@@ -126,11 +139,12 @@ impl From<SceneError> for Failure {
 impl Failure {
     /// The error, with the lines of the scene when it has a place.
     fn text(&self) -> String {
-        let error = match self {
-            Failure::Scene(error) => error,
+        let (which, error) = match self {
+            Failure::Scene(error) => ("", error),
+            Failure::Combination(which, error) => (which.as_str(), error),
             Failure::Other(text) => return format!("error: {text}\n"),
         };
-        let mut text = format!("error: {error}\n");
+        let mut text = format!("error: {which}{error}\n");
         if error.faults().is_empty() {
             return text;
         }
@@ -212,7 +226,7 @@ fn show(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
 
 fn check(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
     let loaded = catalog::load(scene, sets)?;
-    if loaded.scene.size().dofs() <= LARGEST_BUILT {
+    if loaded.scene.size().dofs <= LARGEST_BUILT {
         scenarios::build::build(&loaded)?;
     }
     say(&report::description(&loaded.source.name, &loaded.scene));
@@ -236,7 +250,12 @@ fn run(
     }
     let bar = progress_bar(quiet);
     let watch = &mut |progress: &Progress| advance(&bar, progress);
-    let outcome = scenarios::run::run_and_dump(&loaded, &folder, dump, watch);
+    let stop = interruption()?;
+    let options = Options {
+        dump,
+        stop: Some(&stop),
+    };
+    let outcome = scenarios::run::run_with(&loaded, &folder, &options, watch);
     bar.finish_and_clear();
     let summary = outcome.map_err(|error| match error {
         RunError::Scene(error) => Failure::Scene(error),
@@ -253,12 +272,23 @@ fn run(
         Status::Completed => Ok(ExitCode::SUCCESS),
         Status::Stopped => {
             eprintln!(
-                "error: the run stopped: {}",
+                "error: {}",
                 summary.reason.as_deref().unwrap_or("no reason given")
             );
             Ok(ExitCode::from(STOPPED))
         }
     }
+}
+
+/// Turns true at the first Ctrl-C or request to end; the second one ends the program at once.
+fn interruption() -> Result<Arc<AtomicBool>, Failure> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        register_conditional_shutdown(signal, 128 + signal, flag.clone())
+            .and_then(|_| register(signal, flag.clone()))
+            .map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))?;
+    }
+    Ok(flag)
 }
 
 /// Ticks of the progress bar for the whole run.

@@ -6,12 +6,14 @@
 //! | `history.csv` | one row an accepted step, on disk as soon as the step is accepted ([`Row`]) |
 //! | `fields.pvd`, `fields/*.vtu` | fields for ParaView and pyvista ([`Frame`]), reference positions and displacement |
 //! | `*.svg` | the plots that the scene asks for |
+//! | `sweep.csv` | beside the folders of the runs of a sweep: a row a run |
 //! | `contact_step_N.hdf5` | the contact problem of step N as FCLib, with `--dump-contact N` |
 
 mod csv;
 mod folder;
 mod frame;
 mod history;
+mod labels;
 mod plot;
 mod results;
 mod summary;
@@ -20,7 +22,7 @@ mod vtu;
 pub use self::csv::HistoryFile;
 pub use folder::{Folder, OutputError};
 pub use frame::{Array, CellShape, Cells, Frame, Values};
-pub use history::{ENERGY_COLUMNS, Energies, Force, History, Layout, ProbeColumns, Row};
+pub use history::{Bonds, ENERGY_COLUMNS, Energies, Force, History, Layout, ProbeColumns, Row};
 pub use plot::{deformed_svg, energy_svg, series_svg};
 pub use results::Results;
 pub use summary::{EnergySummary, Status, Summary};

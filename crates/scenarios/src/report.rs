@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::output::{Status, Summary};
-use crate::spec::{Inertia, Law, Master, Scene};
+use crate::spec::{Inertia, Law, Master, Scene, Symmetry};
 
 /// A short description of a checked scene: bodies, unknowns, interfaces, steps.
 pub fn description(name: &str, scene: &Scene) -> String {
@@ -29,10 +29,11 @@ pub fn description(name: &str, scene: &Scene) -> String {
             Master::Cylinder { .. } => "rigid cylinder".into(),
             Master::Cone { .. } => "rigid cone".into(),
         };
-        rows.push((
-            format!("interface {name}"),
-            format!("`{}` on {master}, mu = {}", interface.slave, interface.mu),
-        ));
+        let mut words = format!("`{}` on {master}, mu = {}", interface.slave, interface.mu);
+        if let Some(bonds) = &interface.adhesion {
+            let _ = write!(words, ", adhesion w = {} J/m^2", bonds.energy);
+        }
+        rows.push((format!("interface {name}"), words));
     }
     for (name, given) in &scene.motions {
         rows.push((
@@ -44,11 +45,18 @@ pub fn description(name: &str, scene: &Scene) -> String {
         Inertia::Dynamic => "dynamic",
         Inertia::QuasiStatic => "quasi-static",
     };
+    if scene.is_plane() {
+        let section = match scene.symmetry.unwrap_or_default() {
+            Symmetry::PlaneStrain => "plane strain, of 1 m thickness",
+            Symmetry::Axisymmetric => "axisymmetric about y, whole rings",
+        };
+        rows.push(("symmetry".into(), section.into()));
+    }
     let size = scene.size();
     rows.push(("elements".into(), size.elements.to_string()));
     rows.push((
         "dofs".into(),
-        format!("{} (prescribed ones included)", size.dofs()),
+        format!("{} (prescribed ones included)", size.dofs),
     ));
     rows.push((
         "steps".into(),
@@ -85,20 +93,18 @@ fn aligned(rows: &[(String, String)]) -> String {
 
 /// Counters, phases and the energy audit as aligned columns.
 pub fn closing_table(summary: &Summary) -> String {
-    let mut text = match (&summary.status, &summary.reason) {
-        (Status::Completed, _) => format!(
+    let mut text = match summary.status {
+        Status::Completed => format!(
             "completed: {} steps to t = {}\n",
             summary.steps,
             short(summary.time)
         ),
-        (Status::Stopped, reason) => {
-            let reason = reason.as_deref().unwrap_or("no reason given");
-            format!(
-                "stopped at t = {} after {} steps: {reason}\n",
-                short(summary.time),
-                summary.steps
-            )
-        }
+        // The reason is told as an error.
+        Status::Stopped => format!(
+            "stopped at t = {} after {} steps\n",
+            short(summary.time),
+            summary.steps
+        ),
     };
     for warning in &summary.warnings {
         text += &format!("warning: {warning}\n");
@@ -190,6 +196,27 @@ fn energies(summary: &Summary) -> Rows {
         joule("integration error", energy.integration_error),
         joule("unexplained", energy.unexplained()),
     ]
+}
+
+/// Lines of cells under each other, all of the same number of cells: numbers to the right, the columns in `words` to the left.
+pub fn columns(lines: &[Vec<String>], words: &[usize]) -> String {
+    let count = lines.first().map_or(0, Vec::len);
+    let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max();
+    let widths: Vec<usize> = (0..count).map(|k| width(k).unwrap_or(0)).collect();
+    let mut text = String::new();
+    for line in lines {
+        let mut row = String::new();
+        for (k, (cell, width)) in line.iter().zip(&widths).enumerate() {
+            let _ = if words.contains(&k) {
+                write!(row, "{cell:<width$}  ")
+            } else {
+                write!(row, "{cell:>width$}  ")
+            };
+        }
+        text += row.trim_end();
+        text.push('\n');
+    }
+    text
 }
 
 fn short(value: f64) -> String {

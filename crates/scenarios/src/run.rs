@@ -1,12 +1,14 @@
 //! From a checked scene to results.
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use nscd::{Clock, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
 use thiserror::Error;
 
 use crate::build::{Built, build};
 use crate::clock::Stopwatch;
+use crate::contacts::{self, NodeContact};
 use crate::fields::Fields;
 use crate::output::{Energies, EnergySummary, Force, OutputError, Results, Row, Status, Summary};
 use crate::progress::Progress;
@@ -33,18 +35,27 @@ pub fn run(
     folder: &Path,
     watch: &mut dyn FnMut(&Progress),
 ) -> Result<Summary, RunError> {
-    run_and_dump(loaded, folder, None, watch)
+    run_with(loaded, folder, &Options::default(), watch)
 }
 
-/// As [`run`]; the contact problem of the last iteration of accepted step `dump`, from 1, is written as FCLib. Where that
-/// step has none, a warning in the summary says so.
+/// What a run does besides what its scene says.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Options<'a> {
+    /// The contact problem of the last iteration of this accepted step, from 1, is written as FCLib. Where that step has
+    /// none, a warning in the summary says so.
+    pub dump: Option<usize>,
+    /// When this turns true, the run stops after the step that it computes, with all its results.
+    pub stop: Option<&'a AtomicBool>,
+}
+
+/// As [`run`], with [`Options`].
 ///
 /// # Errors
 /// [`RunError`].
-pub fn run_and_dump(
+pub fn run_with(
     loaded: &LoadedScene,
     folder: &Path,
-    dump: Option<usize>,
+    options: &Options<'_>,
     watch: &mut dyn FnMut(&Progress),
 ) -> Result<Summary, RunError> {
     let stopwatch = Stopwatch::start();
@@ -60,7 +71,9 @@ pub fn run_and_dump(
         built: &built,
         results,
         watch,
-        dump,
+        dump: options.dump,
+        stop: options.stop,
+        interrupted: false,
         failure: None,
     };
     recorder.start(&state)?;
@@ -76,7 +89,11 @@ pub fn run_and_dump(
         return Err(failure.into());
     }
     recorder.frame(&state, stepper.counters.steps as usize, true)?;
-    let mut summary = summarise(&stepper, &state, &totals, &stopwatch, end.err());
+    let stopped = end.err().map(|error| match recorder.interrupted {
+        true => format!("interrupted at t = {:e} s", state.time),
+        false => error.to_string(),
+    });
+    let mut summary = summarise(&stepper, &state, &totals, &stopwatch, stopped);
     if let Some(step) = recorder.dump {
         let reason = format!(
             "no contact problem to dump: step {step} was not reached, or nothing touches in it"
@@ -101,6 +118,9 @@ struct Recorder<'a> {
     watch: &'a mut dyn FnMut(&Progress),
     /// Step whose contact problem is still to be written.
     dump: Option<usize>,
+    stop: Option<&'a AtomicBool>,
+    /// Whether `stop` has ended the march.
+    interrupted: bool,
     /// An output error ends the march; it is kept here to be told as it is.
     failure: Option<OutputError>,
 }
@@ -140,6 +160,7 @@ impl Recorder<'_> {
                     moment: r.moment,
                 })
                 .collect(),
+            bonds: contacts::bonds(&self.built.model, state),
             probes: self.probes(state),
         }
     }
@@ -160,11 +181,19 @@ impl Recorder<'_> {
             .values()
             .zip(&self.built.probes);
         let values = probes.flat_map(|(probe, &node)| {
+            let contact = NodeContact::of(&self.built.model, state, node);
             probe.quantities.iter().flat_map(move |q| match q {
                 Quantity::Displacement => vector(&state.u, node),
                 Quantity::Velocity => vector(&state.v, node),
                 Quantity::ContactForce => vector(&state.contact_force, node),
                 Quantity::VonMises => vec![stress(node)],
+                Quantity::Gap => vec![contact.gap],
+                Quantity::Beta => vec![contact.beta],
+                Quantity::AdhesionForce => contact.bond_force.to_vec(),
+                Quantity::AdhesionNormal => vec![contact.bond_normal],
+                Quantity::AdhesionTangential => vec![contact.bond_tangential],
+                Quantity::NormalForce => vec![contact.normal],
+                Quantity::TangentialForce => vec![contact.tangential],
             })
         });
         values.collect()
@@ -210,8 +239,13 @@ impl Observer for Recorder<'_> {
             .map_err(|failure| {
                 let text = failure.to_string();
                 self.failure = Some(failure);
-                text.into()
-            })
+                text
+            })?;
+        self.interrupted = self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed));
+        if self.interrupted {
+            return Err("interrupted".into());
+        }
+        Ok(())
     }
 }
 
@@ -220,7 +254,7 @@ fn energies(state: &State, totals: &Totals) -> Energies {
     Energies {
         kinetic: state.kinetic_energy,
         strain: state.strain_energy,
-        adhesive: sums.adhesive,
+        adhesive: state.adhesive_energy,
         load_work: sums.load_work,
         friction_dissipation: sums.friction,
         bond_dissipation: sums.bond,
@@ -253,7 +287,7 @@ fn summarise(
     state: &State,
     totals: &Totals,
     stopwatch: &Stopwatch,
-    stopped: Option<NscdError>,
+    stopped: Option<String>,
 ) -> Summary {
     let (counters, solid) = (&stepper.counters, &stepper.model().solid);
     let energy = EnergySummary::new(totals.initial_energy, &energies(state, totals));
@@ -264,7 +298,7 @@ fn summarise(
         } else {
             Status::Stopped
         },
-        reason: stopped.map(|e| e.to_string()),
+        reason: stopped,
         time: state.time,
         steps: counters.steps as usize,
         rejected_steps: counters.rejected_steps as usize,

@@ -2,8 +2,10 @@
 //!
 //! Quantities are in SI units (or in any other consistent set: the program never converts), angles in radians
 //! except where a field says degrees. Names of bodies, materials, interfaces, motions, loads and probes are
-//! letters, digits, `_` and `-`; a set is called `body.set`, for a box one of `x_min`, `x_max`, `y_min`, `y_max`,
-//! `z_min`, `z_max` (nodes and facets) or `all` (nodes).
+//! letters, digits, `_` and `-`; a set is called `body.set`, with the sets that the [`Mesh`] names.
+//!
+//! Bodies with plane meshes make a plane scene: vectors keep three numbers, z is 0, and a rigid shape acts by its section
+//! at z = 0.
 
 mod body;
 mod check;
@@ -18,9 +20,9 @@ mod paths;
 mod request;
 mod time;
 
-pub use body::{Body, BoxSize, Element, Mesh};
+pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Pole, Symmetry};
 pub use error::{Fault, SceneError};
-pub use interface::{Interface, Master};
+pub use interface::{Adhesion, Healing, Interface, Master, Reference, Stiffness, Update};
 pub use load::{LoadedScene, Source, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};
 pub use material::{BuiltLaw, Law, LawError, Material};
@@ -48,6 +50,9 @@ pub struct Scene {
     /// Multiplies the cell counts of every structured mesh \[-\].
     #[serde(default = "one")]
     pub refine: usize,
+    /// What a plane scene is a section of; plane strain when absent. Not for solid bodies.
+    #[serde(default)]
+    pub symmetry: Option<Symmetry>,
     /// Materials by name.
     pub materials: IndexMap<String, Material>,
     /// Deformable bodies by name.
@@ -82,16 +87,20 @@ fn one() -> usize {
 }
 
 impl Scene {
-    /// Nodes, elements and displacement unknowns of all bodies together, `refine` included, prescribed unknowns
-    /// not taken off.
-    pub fn size(&self) -> BoxSize {
-        let mut total = BoxSize::default();
-        for body in self.bodies.values() {
-            let size = body.mesh.size(self.refine);
-            total.nodes += size.nodes;
-            total.elements += size.elements;
-        }
-        total
+    /// True when the first body is plane; then all are.
+    pub fn is_plane(&self) -> bool {
+        let first = self.bodies.first();
+        first.is_some_and(|(_, body)| body.mesh.is_plane())
+    }
+
+    /// Counts of all bodies together, `refine` included.
+    pub fn size(&self) -> MeshSize {
+        let sizes = self.bodies.values().map(|body| body.mesh.size(self.refine));
+        sizes.fold(MeshSize::default(), |sum, size| MeshSize {
+            nodes: sum.nodes.saturating_add(size.nodes),
+            elements: sum.elements.saturating_add(size.elements),
+            dofs: sum.dofs.saturating_add(size.dofs),
+        })
     }
 
     /// Number of equal steps of `time.dt` that reach `time.end` (a rejected step adds to it).

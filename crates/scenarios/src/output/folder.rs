@@ -25,6 +25,14 @@ pub enum OutputError {
         /// Why.
         source: io::Error,
     },
+    /// A file of results cannot be read back.
+    #[error("cannot read {}: {source}", path.display())]
+    Unread {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
     /// The fields given by the solver do not fit together.
     #[error("fields at t = {time} s are not written: {defect}")]
     Frame {
@@ -50,7 +58,9 @@ pub struct Folder {
 }
 
 /// How the names of the pictures begin.
-const PICTURES: [&str; 5] = ["energy", "deformed", "force_", "moment_", "probe_"];
+const PICTURES: [&str; 6] = [
+    "energy", "deformed", "force_", "moment_", "probe_", "history_",
+];
 
 impl Folder {
     /// Makes the folder with its parents and writes a file on trial, before anything is computed. Results of an
@@ -87,8 +97,10 @@ impl Folder {
         let problem =
             |name: &str| drawn && name.starts_with("contact_step_") && name.ends_with(".hdf5");
         self.remove(&self.path, |name| {
-            matches!(name, "summary.json" | "history.csv" | "fields.pvd")
-                || svg(name)
+            matches!(
+                name,
+                "summary.json" | "history.csv" | "fields.pvd" | "sweep.csv"
+            ) || svg(name)
                 || problem(name)
         })?;
         let fields = self.file("fields");

@@ -1,5 +1,10 @@
 //! Columns and rows of `history.csv`.
 
+use std::io;
+use std::path::Path;
+
+use super::OutputError;
+use crate::output::EnergySummary;
 use crate::spec::{Quantity, Scene};
 
 /// Columns between the time and the forces, in the order of the file.
@@ -14,6 +19,9 @@ pub const ENERGY_COLUMNS: [&str; 9] = [
     "dissipation.impact",
     "error.integration",
 ];
+
+/// Last words of the columns of an interface with adhesion.
+const BOND_COLUMNS: [&str; 3] = ["beta_max", "beta_mean", "bonded"];
 
 /// Energies at a time; works, dissipations and errors are sums since the start \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,6 +68,22 @@ impl Energies {
     }
 }
 
+impl From<&EnergySummary> for Energies {
+    fn from(end: &EnergySummary) -> Energies {
+        Energies {
+            kinetic: end.kinetic,
+            strain: end.strain,
+            adhesive: end.adhesive,
+            load_work: end.load_work,
+            friction_dissipation: end.friction_dissipation,
+            bond_dissipation: end.bond_dissipation,
+            damping_dissipation: end.damping_dissipation,
+            impact_loss: end.impact_loss,
+            integration_error: end.integration_error,
+        }
+    }
+}
+
 /// Resultant on an interface or a driven boundary.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Force {
@@ -67,6 +91,17 @@ pub struct Force {
     pub force: [f64; 3],
     /// Moment \[N m\].
     pub moment: [f64; 3],
+}
+
+/// Bonds of an interface with adhesion.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bonds {
+    /// Largest intensity \[-\].
+    pub largest: f64,
+    /// Mean intensity over the slave surface \[-\].
+    pub mean: f64,
+    /// Slave nodes whose intensity is above the threshold of their interface.
+    pub bonded: usize,
 }
 
 /// One accepted step.
@@ -84,6 +119,8 @@ pub struct Row {
     pub contact_error: f64,
     /// One per name of the [`Layout`].
     pub forces: Vec<Force>,
+    /// One per bonded interface of the [`Layout`].
+    pub bonds: Vec<Bonds>,
     /// Probe values, probe after probe, quantity after quantity, component after component.
     pub probes: Vec<f64>,
 }
@@ -93,6 +130,8 @@ pub struct Row {
 pub struct Layout {
     /// Interfaces, then motions, in the order of the scene.
     pub forces: Vec<String>,
+    /// Interfaces with adhesion in the order of the scene.
+    pub bonds: Vec<String>,
     /// Probes in the order of the scene.
     pub probes: Vec<ProbeColumns>,
 }
@@ -117,6 +156,12 @@ impl Layout {
                 .chain(scene.motions.keys())
                 .cloned()
                 .collect(),
+            bonds: scene
+                .interfaces
+                .iter()
+                .filter(|(_, interface)| interface.adhesion.is_some())
+                .map(|(name, _)| name.clone())
+                .collect(),
             probes: probes
                 .map(|(name, probe)| ProbeColumns {
                     name: name.clone(),
@@ -137,6 +182,9 @@ impl Layout {
                 header.extend(["x", "y", "z"].map(|axis| format!("{kind}.{name}.{axis}")));
             }
         }
+        for name in &self.bonds {
+            header.extend(BOND_COLUMNS.map(|kind| format!("bond.{name}.{kind}")));
+        }
         for probe in &self.probes {
             for quantity in &probe.quantities {
                 let column = format!("probe.{}.{}", probe.name, quantity.name());
@@ -150,7 +198,7 @@ impl Layout {
         header
     }
 
-    /// Numbers of a row in the order of the header. A row with too few forces or probe values is filled with
+    /// Numbers of a row in the order of the header. A row with too few forces, bonds or probe values is filled with
     /// NaN, one with too many cut.
     pub fn numbers(&self, row: &Row) -> Vec<f64> {
         let mut numbers = vec![row.time];
@@ -164,6 +212,13 @@ impl Layout {
             let Force { force, moment } = row.forces.get(i).copied().unwrap_or(unknown);
             numbers.extend(force);
             numbers.extend(moment);
+        }
+        for i in 0..self.bonds.len() {
+            let bonds = row
+                .bonds
+                .get(i)
+                .map(|b| [b.largest, b.mean, b.bonded as f64]);
+            numbers.extend(bonds.unwrap_or([f64::NAN; 3]));
         }
         let count: usize = self
             .probes
@@ -190,6 +245,28 @@ impl History {
             header,
             rows: Vec::new(),
         }
+    }
+
+    /// Reads a `history.csv`.
+    ///
+    /// # Errors
+    /// [`OutputError::Unread`] for a file that cannot be read or holds something else than numbers.
+    pub fn read(path: &Path) -> Result<History, OutputError> {
+        let read = || -> io::Result<History> {
+            let mut reader = csv::Reader::from_path(path)?;
+            let mut history = History::new(reader.headers()?.iter().map(str::to_owned).collect());
+            for record in reader.records() {
+                let record = record?;
+                let numbers = record.iter().map(str::parse::<f64>);
+                let numbers: Result<Vec<f64>, _> = numbers.collect();
+                history.push(numbers.map_err(io::Error::other)?);
+            }
+            Ok(history)
+        };
+        read().map_err(|source| OutputError::Unread {
+            path: path.to_owned(),
+            source,
+        })
     }
 
     /// Adds the numbers of a row.

@@ -6,7 +6,7 @@ use contact_bipotential::ContactProblem;
 
 use super::{
     Folder, Frame, History, HistoryFile, Layout, OutputError, Row, Summary, deformed_svg,
-    energy_svg, series_svg, vtu_bytes, write_pvd,
+    energy_svg, labels, series_svg, vtu_bytes, write_pvd,
 };
 use crate::fclib;
 use crate::spec::{FieldsEvery, Plot, Scene};
@@ -216,12 +216,21 @@ impl Results {
     }
 
     fn curves(&self) -> Result<(), OutputError> {
+        let mut free = 0;
         for plot in &self.schedule.plots {
             match plot {
                 Plot::Energy => self.draw("energy.svg", energy_svg(&self.title, &self.history))?,
                 Plot::Force(name) => self.vector(name, "force", "Force [N]")?,
                 Plot::Moment(name) => self.vector(name, "moment", "Moment [N m]")?,
                 Plot::Probe(name) => self.probe(name)?,
+                Plot::History(columns) => {
+                    free += 1;
+                    let names = labels::distinct(columns);
+                    let curves: Vec<_> = names.into_iter().zip(columns.iter().cloned()).collect();
+                    let label = labels::common(columns);
+                    let svg = series_svg(&self.title, label, &self.history, &curves);
+                    self.draw(&format!("history_{free}.svg"), svg)?;
+                }
                 Plot::Deformed | Plot::DeformedAt(_) => {}
             }
         }
@@ -251,7 +260,7 @@ impl Results {
                     .into(),
             };
             let title = format!("{}: {name}", self.title);
-            let svg = series_svg(&title, &quantity.label(), &self.history, &columns);
+            let svg = series_svg(&title, quantity.label(), &self.history, &columns);
             self.draw(&format!("probe_{name}_{}.svg", quantity.name()), svg)?;
         }
         Ok(())

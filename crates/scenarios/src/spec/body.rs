@@ -15,11 +15,22 @@ pub struct Body {
     pub velocity: [f64; 3],
 }
 
-/// Mesh of a body.
+/// What the third direction of a plane scene is like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Symmetry {
+    /// Thick bodies that do not stretch along z; forces, masses and energies are those of 1 m of thickness.
+    #[default]
+    PlaneStrain,
+    /// Bodies of revolution about the y axis, x is the radius; forces, masses and energies are those of the whole ring.
+    Axisymmetric,
+}
+
+/// Mesh of a body. All meshes have the node set `all`; the other sets are of nodes and facets unless said.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Mesh {
-    /// Structured block. Sets `x_min` .. `z_max` (nodes and facets), `all` (nodes).
+    /// Structured block. Sets `x_min` .. `z_max`.
     Box {
         /// Smallest corner \[m\].
         min: [f64; 3],
@@ -34,13 +45,92 @@ pub enum Mesh {
         #[serde(default)]
         element: Element,
     },
+    /// Half of a ball of hexahedra; its flat face is normal to z. Sets `dome`, `base`.
+    HalfBall {
+        /// Centre of the ball \[m\].
+        center: [f64; 3],
+        /// Radius \[m\].
+        radius: f64,
+        /// Cells on a quarter of a great circle before `refine` \[-\], raised to an even number.
+        cells: usize,
+        /// Which half.
+        pole: Pole,
+    },
+    /// Plane structured rectangle. Sets `x_min` .. `y_max`.
+    Rectangle {
+        /// Smallest corner \[m\].
+        min: [f64; 2],
+        /// Largest corner \[m\].
+        max: [f64; 2],
+        /// Cells along x, y before `refine` \[-\].
+        cells: [usize; 2],
+        /// Size of the last cell over the size of the first along x, y \[-\]; 1 is uniform.
+        #[serde(default = "uniform")]
+        grading: [f64; 2],
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
+    },
+    /// Disc. Set `rim`, node set `center` (the node nearest the centre).
+    Disc {
+        /// Centre \[m\].
+        center: [f64; 2],
+        /// Radius \[m\].
+        radius: f64,
+        /// Cells on a quarter of the rim before `refine` \[-\]; an even number has nodes at the centre and at the poles.
+        cells: usize,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
+    },
+    /// Half of a disc of quadrilaterals; its flat side is normal to y. Sets `dome`, `base`.
+    HalfDisc {
+        /// Centre of the disc \[m\].
+        center: [f64; 2],
+        /// Radius \[m\].
+        radius: f64,
+        /// Cells on a quarter of the rim before `refine` \[-\], raised to an even number.
+        cells: usize,
+        /// Which half.
+        pole: Pole,
+    },
+    /// Quarter of a disc of quadrilaterals, x not below that of the centre: half of a ball in an axisymmetric scene.
+    /// Sets `dome`, `base` (normal to y), `axis` (normal to x).
+    QuarterDisc {
+        /// Centre of the disc \[m\].
+        center: [f64; 2],
+        /// Radius \[m\].
+        radius: f64,
+        /// Cells on the quarter of the rim before `refine` \[-\], raised to an even number.
+        cells: usize,
+        /// Which quarter.
+        pole: Pole,
+    },
+    /// Ring of quadrilaterals. Sets `inner`, `outer`.
+    Annulus {
+        /// Centre \[m\].
+        center: [f64; 2],
+        /// Inner radius \[m\].
+        inner: f64,
+        /// Outer radius \[m\].
+        outer: f64,
+        /// Cells around and through the thickness before `refine` \[-\].
+        cells: [usize; 2],
+        /// Size of the outermost cell over the size of the innermost \[-\]; 1 is uniform.
+        #[serde(default = "one")]
+        grading: f64,
+    },
 }
 
-fn uniform() -> [f64; 3] {
-    [1.0; 3]
+fn uniform<const N: usize>() -> [f64; N] {
+    [1.0; N]
 }
 
-/// Element of a mesh.
+fn one() -> f64 {
+    1.0
+}
+
+/// Element of a solid mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Element {
@@ -51,35 +141,103 @@ pub enum Element {
     Tet4,
 }
 
+/// Element of a plane mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum PlaneElement {
+    /// Quadrilateral with 4 nodes.
+    #[default]
+    Quad4,
+    /// Triangle with 3 nodes; two of them fill a cell of a rectangle.
+    Tri3,
+}
+
+impl PlaneElement {
+    fn per_quadrilateral(self) -> f64 {
+        match self {
+            PlaneElement::Quad4 => 1.0,
+            PlaneElement::Tri3 => 2.0,
+        }
+    }
+}
+
+/// Where the dome of a half body points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Pole {
+    /// Towards +y in the plane, +z in space.
+    Up,
+    /// Towards -y in the plane, -z in space.
+    Down,
+}
+
 /// Counts of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct BoxSize {
+pub struct MeshSize {
     /// Nodes \[-\].
     pub nodes: usize,
     /// Elements \[-\].
     pub elements: usize,
-}
-
-impl BoxSize {
-    /// Displacement unknowns, three a node \[-\].
-    pub fn dofs(self) -> usize {
-        3 * self.nodes
-    }
+    /// Displacement unknowns, two or three a node, prescribed ones included \[-\].
+    pub dofs: usize,
 }
 
 impl Mesh {
+    /// True for a mesh in the x-y plane.
+    pub fn is_plane(&self) -> bool {
+        !matches!(self, Mesh::Box { .. } | Mesh::HalfBall { .. })
+    }
+
     /// Counts of the mesh with each cell count multiplied by `refine`.
-    pub fn size(&self, refine: usize) -> BoxSize {
-        let Mesh::Box { cells, element, .. } = self;
-        let fine = cells.map(|c| c.saturating_mul(refine));
-        let product = |n: [usize; 3]| n.into_iter().fold(1, usize::saturating_mul);
-        let per_cell = match element {
-            Element::Hex8 => 1,
-            Element::Tet4 => 6,
+    pub fn size(&self, refine: usize) -> MeshSize {
+        let fine = |n: usize| n as f64 * refine as f64;
+        let (nodes, elements) = match self {
+            Mesh::Box { cells, element, .. } => {
+                let per_cell = match element {
+                    Element::Hex8 => 1.0,
+                    Element::Tet4 => 6.0,
+                };
+                lattice(&cells.map(fine), per_cell)
+            }
+            Mesh::Rectangle { cells, element, .. } => {
+                lattice(&cells.map(fine), element.per_quadrilateral())
+            }
+            Mesh::Annulus { cells, .. } => {
+                let [around, through] = cells.map(fine);
+                (around * (through + 1.0), around * through)
+            }
+            Mesh::Disc { cells, element, .. } => {
+                let n = fine(*cells);
+                let (nodes, cells) = round(n * n, (n + 1.0).powi(2), 4.0 * n, 4.0 * n, n);
+                (nodes, cells * element.per_quadrilateral())
+            }
+            Mesh::HalfDisc { cells, .. } => {
+                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
+                let core = (2.0 * h + 1.0) * (h + 1.0);
+                round(2.0 * h * h, core, 4.0 * h, 4.0 * h + 1.0, n)
+            }
+            Mesh::QuarterDisc { cells, .. } => {
+                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
+                round(h * h, (h + 1.0).powi(2), 2.0 * h, 2.0 * h + 1.0, n)
+            }
+            Mesh::HalfBall { cells, .. } => {
+                let h = (0.5 * fine(*cells)).ceil();
+                let top = (2.0 * h + 1.0).powi(2);
+                let sides = 8.0 * h * h;
+                round(
+                    4.0 * h * h * h,
+                    top * (h + 1.0),
+                    12.0 * h * h,
+                    top + sides,
+                    2.0 * h,
+                )
+            }
         };
-        BoxSize {
-            nodes: product(fine.map(|c| c.saturating_add(1))),
-            elements: product(fine).saturating_mul(per_cell),
+        let dim = if self.is_plane() { 2.0 } else { 3.0 };
+        MeshSize {
+            nodes: nodes as usize,
+            elements: elements as usize,
+            dofs: (dim * nodes) as usize,
         }
     }
 
@@ -87,6 +245,11 @@ impl Mesh {
     pub fn node_sets(&self) -> &'static [&'static str] {
         match self {
             Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"],
+            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max", "all"],
+            Mesh::Disc { .. } => &["rim", "center", "all"],
+            Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base", "all"],
+            Mesh::QuarterDisc { .. } => &["dome", "base", "axis", "all"],
+            Mesh::Annulus { .. } => &["inner", "outer", "all"],
         }
     }
 
@@ -94,6 +257,24 @@ impl Mesh {
     pub fn facet_sets(&self) -> &'static [&'static str] {
         match self {
             Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"],
+            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max"],
+            Mesh::Disc { .. } => &["rim"],
+            Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base"],
+            Mesh::QuarterDisc { .. } => &["dome", "base", "axis"],
+            Mesh::Annulus { .. } => &["inner", "outer"],
         }
     }
+}
+
+/// Nodes and elements of a grid.
+fn lattice(cells: &[f64], per_cell: f64) -> (f64, f64) {
+    let nodes = cells.iter().map(|n| n + 1.0).product();
+    (nodes, cells.iter().product::<f64>() * per_cell)
+}
+
+/// Nodes and elements of a core and of the shells around it, from those of the core and of its outside; `quarter` is the
+/// number of cells on a quarter of the rim.
+fn round(core_cells: f64, core_nodes: f64, cells: f64, nodes: f64, quarter: f64) -> (f64, f64) {
+    let shells = ((2.0 * quarter + 2.0) / 5.0).floor().max(1.0);
+    (core_nodes + nodes * shells, core_cells + cells * shells)
 }

@@ -1,12 +1,15 @@
 //! Every value of a scene against what is possible.
 
+mod interface;
+mod mesh;
+mod plane;
 mod run;
 
 use indexmap::IndexMap;
 
 use super::locate::join;
 use super::overrides::near_names;
-use super::{ContactLevel, Inertia, Interface, Load, Master, Mesh, Motion, Scene, Table};
+use super::{Inertia, Load, Motion, Scene, Table};
 
 /// A value that is not allowed.
 #[derive(Debug)]
@@ -29,6 +32,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Issue> {
     checker.names();
     checker.materials();
     checker.bodies();
+    checker.plane();
     checker.motions();
     checker.loads();
     checker.interfaces();
@@ -208,37 +212,6 @@ impl Checker<'_> {
         }
     }
 
-    fn mesh(&mut self, mesh: &Mesh, path: &str) {
-        let Mesh::Box {
-            min,
-            max,
-            cells,
-            grading,
-            ..
-        } = mesh;
-        self.finite(min, &format!("{path}.min"));
-        for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            let larger = max[i].is_finite() && max[i] > min[i];
-            let message = format!(
-                "must be greater than min.{axis} = {} [m], or the elements are inverted",
-                min[i]
-            );
-            self.require(larger, &format!("{path}.max.{i}"), message);
-            self.require(
-                cells[i] >= 1,
-                &format!("{path}.cells.{i}"),
-                "must be 1 or more [-]",
-            );
-            self.positive(grading[i], &format!("{path}.grading.{i}"), "-");
-        }
-        let nodes = mesh.size(self.scene.refine).nodes;
-        let message = format!(
-            "times refine = {} makes {nodes} nodes; at most {MAX_NODES}",
-            self.scene.refine
-        );
-        self.require(nodes <= MAX_NODES, &format!("{path}.cells"), message);
-    }
-
     fn motions(&mut self) {
         let motions = &self.scene.motions;
         for (i, (name, given)) in motions.iter().enumerate() {
@@ -319,75 +292,6 @@ impl Checker<'_> {
                 }
             }
         }
-    }
-
-    fn interfaces(&mut self) {
-        for (name, interface) in &self.scene.interfaces {
-            let path = format!("interfaces.{name}");
-            self.set(&interface.slave, "facet", &format!("{path}.slave"));
-            self.master(interface, &path);
-            self.not_negative(interface.mu, &format!("{path}.mu"), "-");
-            let e = format!("{path}.restitution");
-            self.between(interface.restitution, 0.0, 1.0, &e, "-");
-            let velocity = self.scene.time.contact == ContactLevel::Velocity;
-            self.require(
-                interface.restitution == 0.0 || velocity,
-                &e,
-                "needs time.contact: Velocity",
-            );
-        }
-    }
-
-    fn master(&mut self, interface: &Interface, path: &str) {
-        let master = format!("{path}.master");
-        match &interface.master {
-            Master::Facets(facets) => {
-                self.set(facets, "facet", &master);
-                self.require(
-                    *facets != interface.slave,
-                    &master,
-                    "must not be the slave itself",
-                );
-                let still = interface.motion == Motion::Fixed;
-                self.require(
-                    still,
-                    &format!("{path}.motion"),
-                    "is for rigid masters; move a body by motions",
-                );
-            }
-            Master::Plane { point, normal } => {
-                self.finite(point, &format!("{master}.point"));
-                self.direction(*normal, &format!("{master}.normal"));
-            }
-            Master::Sphere { center, radius } => {
-                self.finite(center, &format!("{master}.center"));
-                self.positive(*radius, &format!("{master}.radius"), "m");
-            }
-            Master::Cylinder {
-                point,
-                axis,
-                radius,
-            } => {
-                self.finite(point, &format!("{master}.point"));
-                self.direction(*axis, &format!("{master}.axis"));
-                self.positive(*radius, &format!("{master}.radius"), "m");
-            }
-            Master::Cone {
-                apex,
-                axis,
-                semi_apex_angle,
-            } => {
-                self.finite(apex, &format!("{master}.apex"));
-                self.direction(*axis, &format!("{master}.axis"));
-                let sharp = *semi_apex_angle > 0.0 && *semi_apex_angle < 90.0;
-                self.require(
-                    sharp,
-                    &format!("{master}.semi_apex_angle"),
-                    "must be between 0 and 90 [degrees]",
-                );
-            }
-        }
-        self.motion(&interface.motion, &format!("{path}.motion"));
     }
 }
 

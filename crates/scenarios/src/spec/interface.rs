@@ -21,6 +21,110 @@ pub struct Interface {
     /// Newton's coefficient of restitution \[-\], 0 to 1; needs `time.contact: Velocity` when not zero.
     #[serde(default)]
     pub restitution: f64,
+    /// A node closer than this to the master becomes a contact, open or closed \[m\]. The longest diagonal of a facet
+    /// when absent, with adhesion at least ten times `sqrt(w / C_n)`, at which a bond carries most.
+    #[serde(default)]
+    pub search_distance: Option<f64>,
+    /// Bonds between the surfaces, if any.
+    #[serde(default)]
+    pub adhesion: Option<Adhesion>,
+}
+
+/// Bonds that break and heal: `b beta' = w - beta (C_n x_n^2 + C_t |u_t|^2)` with `0 <= beta <= 1` [Hu2022, eq. 12-15].
+/// A bond pulls back with the traction `beta^2 C` times its stretch.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Adhesion {
+    /// Normal stiffness of full bonds \[N/m^3\].
+    #[serde(rename = "C_n")]
+    pub normal_stiffness: f64,
+    /// Tangential stiffness of full bonds \[N/m^3\], one number or one for each tangent.
+    #[serde(rename = "C_t")]
+    pub tangential_stiffness: Stiffness,
+    /// Energy of full bonds (Dupre) \[J/m^2\].
+    #[serde(rename = "w")]
+    pub energy: f64,
+    /// Viscosity of breaking and healing \[N s/m\]; 0 is independent of the rate.
+    #[serde(rename = "b")]
+    pub viscosity: f64,
+    /// Intensity below which a bond that has opened is broken for good and its separation starts anew \[-\].
+    #[serde(rename = "epsilon", default = "threshold")]
+    pub threshold: f64,
+    /// Bonds heal up to this gap \[m\]; 0 is in contact only.
+    #[serde(default)]
+    pub healing_gap: f64,
+    /// Intensity at the start of what touches then \[-\].
+    #[serde(rename = "beta", default)]
+    pub initial: f64,
+    /// Whether broken bonds come back.
+    #[serde(default)]
+    pub healing: Healing,
+    /// What the tangential separation is measured from.
+    #[serde(default)]
+    pub reference: Reference,
+    /// How the intensity advances in a step.
+    #[serde(default)]
+    pub update: Update,
+    /// Friction coefficient of full bonds \[-\], linear in the intensity between `mu` and this; `mu` when absent.
+    #[serde(rename = "mu_bonded", default)]
+    pub bonded_friction: Option<f64>,
+}
+
+fn threshold() -> f64 {
+    1e-4
+}
+
+/// A stiffness along the two tangents.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a number or a pair of numbers")]
+pub enum Stiffness {
+    /// The same along both.
+    Equal(f64),
+    /// Along the first and the second tangent.
+    Pair([f64; 2]),
+}
+
+impl Stiffness {
+    /// Along the first and the second tangent.
+    pub fn pair(self) -> [f64; 2] {
+        match self {
+            Stiffness::Equal(value) => [value; 2],
+            Stiffness::Pair(values) => values,
+        }
+    }
+}
+
+/// Whether broken bonds come back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Healing {
+    /// They do while the surfaces touch.
+    #[default]
+    Recoverable,
+    /// Never.
+    Irreversible,
+}
+
+/// What the tangential separation of bonds is measured from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Reference {
+    /// Where the pair met; anew when a broken bond has opened.
+    #[default]
+    Reset,
+    /// It follows as new bonds form, which are not stretched.
+    Ageing,
+}
+
+/// How the intensity of bonds advances in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Update {
+    /// Exact for a constant separation, second order otherwise.
+    #[default]
+    SecondOrder,
+    /// The energy of bonds balances exactly in every step.
+    EnergyConsistent,
 }
 
 /// The master side of an interface. A rigid shape is free space outside.

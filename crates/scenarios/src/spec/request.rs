@@ -52,6 +52,8 @@ pub enum Plot {
     Moment(String),
     /// All quantities of a probe over time.
     Probe(String),
+    /// Columns of `history.csv` over time, all in one picture.
+    History(Vec<String>),
 }
 
 /// Node followed over time.
@@ -76,11 +78,40 @@ pub enum Quantity {
     Velocity,
     /// Contact force on the node \[N\], columns `contact_force.x`, `.y`, `.z`.
     ContactForce,
-    /// Von Mises stress, mean over the elements at the node \[Pa\], column `von_mises`.
+    /// Von Mises stress, mean over the elements at the node \[Pa\].
     VonMises,
+    /// Gap of a slave node to its master \[m\]; NaN beyond the reach of the contact search.
+    Gap,
+    /// Intensity of adhesion of a slave node \[-\].
+    Beta,
+    /// Force of the bond on a slave node \[N\], columns `adhesion_force.x`, `.y`, `.z`.
+    AdhesionForce,
+    /// Pull of the bond along the normal \[N\].
+    AdhesionNormal,
+    /// Norm of the tangential force of the bond \[N\].
+    AdhesionTangential,
+    /// Normal contact force on a slave node without the bond \[N\]; pressure is positive.
+    NormalForce,
+    /// Norm of the friction on a slave node without the bond \[N\].
+    TangentialForce,
 }
 
 impl Quantity {
+    /// All quantities.
+    pub const ALL: [Quantity; 11] = [
+        Quantity::Displacement,
+        Quantity::Velocity,
+        Quantity::ContactForce,
+        Quantity::VonMises,
+        Quantity::Gap,
+        Quantity::Beta,
+        Quantity::AdhesionForce,
+        Quantity::AdhesionNormal,
+        Quantity::AdhesionTangential,
+        Quantity::NormalForce,
+        Quantity::TangentialForce,
+    ];
+
     /// Name in a scene and in the header of `history.csv`.
     pub fn name(self) -> &'static str {
         match self {
@@ -88,25 +119,41 @@ impl Quantity {
             Quantity::Velocity => "velocity",
             Quantity::ContactForce => "contact_force",
             Quantity::VonMises => "von_mises",
+            Quantity::Gap => "gap",
+            Quantity::Beta => "beta",
+            Quantity::AdhesionForce => "adhesion_force",
+            Quantity::AdhesionNormal => "adhesion_normal",
+            Quantity::AdhesionTangential => "adhesion_tangential",
+            Quantity::NormalForce => "normal_force",
+            Quantity::TangentialForce => "tangential_force",
         }
     }
 
     /// Name with unit, for axes.
-    pub fn label(self) -> String {
-        let (name, unit) = match self {
-            Quantity::Displacement => ("Displacement", "m"),
-            Quantity::Velocity => ("Velocity", "m/s"),
-            Quantity::ContactForce => ("Contact force", "N"),
-            Quantity::VonMises => ("Von Mises stress", "Pa"),
-        };
-        format!("{name} [{unit}]")
+    pub fn label(self) -> &'static str {
+        match self {
+            Quantity::Displacement => "Displacement [m]",
+            Quantity::Velocity => "Velocity [m/s]",
+            Quantity::ContactForce => "Contact force [N]",
+            Quantity::VonMises => "Von Mises stress [Pa]",
+            Quantity::Gap => "Gap [m]",
+            Quantity::Beta => "Intensity of adhesion [-]",
+            Quantity::AdhesionForce | Quantity::AdhesionNormal | Quantity::AdhesionTangential => {
+                "Adhesion force [N]"
+            }
+            Quantity::NormalForce => "Normal force [N]",
+            Quantity::TangentialForce => "Tangential force [N]",
+        }
     }
 
     /// Number of columns: 3 for a vector, 1 for a scalar.
     pub fn components(self) -> usize {
         match self {
-            Quantity::VonMises => 1,
-            _ => 3,
+            Quantity::Displacement
+            | Quantity::Velocity
+            | Quantity::ContactForce
+            | Quantity::AdhesionForce => 3,
+            _ => 1,
         }
     }
 }

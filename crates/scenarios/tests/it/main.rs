@@ -1,13 +1,17 @@
 //! Tests of scenes, results and the program, in one binary.
 #![allow(clippy::unwrap_used)] // helpers of tests fail the test
 
+mod adhesion;
 mod cli;
 mod contact;
 mod locate;
 mod output;
 mod overrides;
 mod pictures;
+mod plane;
+mod refusals;
 mod scene;
+mod sweep;
 mod vtu_reader;
 
 use std::path::PathBuf;

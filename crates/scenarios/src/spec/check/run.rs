@@ -1,6 +1,7 @@
 //! Time, solver and output of a scene.
 
 use super::{Checker, MAX_STEPS, unknown};
+use crate::output::Layout;
 use crate::spec::{ContactLevel, FieldsEvery, Inertia, Plot};
 
 impl Checker<'_> {
@@ -99,6 +100,17 @@ impl Checker<'_> {
                     );
                 }
                 Plot::Probe(name) => self.known(&output.probes, name, "probe", &path),
+                Plot::History(columns) => {
+                    self.require(!columns.is_empty(), &path, "must name at least one column");
+                    let header = Layout::of(self.scene).header();
+                    for (k, column) in columns.iter().enumerate() {
+                        self.require(
+                            header.contains(column),
+                            &format!("{path}.{k}"),
+                            unknown("column", column, header.iter().map(String::as_str)),
+                        );
+                    }
+                }
             }
         }
         for (name, probe) in &output.probes {

@@ -1,0 +1,341 @@
+//! Plane scenes: schema, what is refused, and their pictures.
+
+use scenarios::output::{Array, CellShape, Cells, Frame, Values, deformed_svg};
+use scenarios::spec::{LoadedScene, Mesh, SceneError, Symmetry, parse};
+
+/// A disc that rolls between a rectangle and a rigid plane.
+const PLANE: &str = r#"(
+    title: "plane",
+    materials: { "m": (law: NeoHookean(E: 1e6, nu: 0.3), density: 1000) },
+    bodies: {
+        "wheel": (mesh: Disc(center: (1, 1), radius: 1, cells: 4), material: "m", velocity: (1, 0, 0)),
+        "plate": (mesh: Rectangle(min: (0, 2), max: (4, 3), cells: (8, 2)), material: "m"),
+    },
+    motions: {
+        "top": (nodes: "plate.y_max", motion: Move(translation: (1, [(0, 0), (1, -0.1)], 0))),
+    },
+    loads: { "weight": Gravity((0, -9.81, 0)) },
+    interfaces: {
+        "ground": (slave: "wheel.rim", master: Plane(point: (0, 0, 0), normal: (0, 1, 0)), mu: 0.4),
+        "roof": (slave: "wheel.rim", master: Facets("plate.y_min")),
+    },
+    time: (end: 1, dt: 0.1),
+    output: (probes: { "hub": (body: "wheel", node: (1, 1, 0), quantities: [displacement]) }),
+)
+"#;
+
+fn changed(from: &str, to: &str) -> Result<LoadedScene, SceneError> {
+    assert!(PLANE.contains(from), "{from}");
+    parse("plane.ron", &PLANE.replace(from, to), &[])
+}
+
+/// The change makes one fault, at this path and with these words.
+fn refused(from: &str, to: &str, path: &str, words: &[&str]) {
+    let error = changed(from, to).expect_err(to);
+    let [fault] = error.faults() else {
+        panic!("{to}: not one fault but\n{error}")
+    };
+    assert_eq!(fault.path, path, "{to}: {fault}");
+    for word in words {
+        assert!(
+            fault.message.contains(word),
+            "`{word}` is missing in: {fault}"
+        );
+    }
+}
+
+#[test]
+fn a_plane_scene_has_two_unknowns_a_node() {
+    let scene = parse("plane.ron", PLANE, &[]).unwrap().scene;
+    assert!(scene.is_plane());
+    assert_eq!(scene.symmetry, None);
+    let plate = scene.bodies["plate"].mesh.size(1);
+    assert_eq!((plate.nodes, plate.elements, plate.dofs), (27, 16, 54));
+    assert_eq!(scene.bodies["plate"].mesh.size(3).elements, 9 * 16);
+}
+
+#[test]
+fn every_plane_mesh_can_be_said() {
+    let meshes = [
+        (
+            "Rectangle(min: (0, 0), max: (1, 1), cells: (1, 1), grading: (2, 1), element: Tri3)",
+            "x_max",
+        ),
+        (
+            "Disc(center: (1, 0), radius: 1, cells: 2, element: Tri3)",
+            "rim",
+        ),
+        (
+            "HalfDisc(center: (1, 0), radius: 1, cells: 2, pole: Down)",
+            "dome",
+        ),
+        (
+            "QuarterDisc(center: (0, 0), radius: 1, cells: 2, pole: Up)",
+            "axis",
+        ),
+        (
+            "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, 2))",
+            "outer",
+        ),
+    ];
+    for (mesh, set) in meshes {
+        for symmetry in ["PlaneStrain", "Axisymmetric"] {
+            let text = format!(
+                r#"(title: "x", symmetry: {symmetry},
+                materials: {{ "m": (law: BlatzKo(G: 1), density: 1) }},
+                bodies: {{ "a": (mesh: {mesh}, material: "m") }},
+                motions: {{ "hold": (nodes: "a.{set}") }},
+                loads: {{ "pull": Traction(facets: "a.{set}", traction: (1, 0, 0)) }},
+                time: (end: 1, dt: 1))"#
+            );
+            let loaded = parse("x.ron", &text, &[]).unwrap_or_else(|e| panic!("{mesh}: {e}"));
+            let wanted = if symmetry == "PlaneStrain" {
+                Symmetry::PlaneStrain
+            } else {
+                Symmetry::Axisymmetric
+            };
+            assert_eq!(loaded.scene.symmetry, Some(wanted));
+            assert!(loaded.scene.is_plane());
+        }
+    }
+}
+
+#[test]
+fn half_a_ball_is_solid() {
+    let ball = Mesh::HalfBall {
+        center: [0.0; 3],
+        radius: 1.0,
+        cells: 2,
+        pole: scenarios::spec::Pole::Up,
+    };
+    assert!(!ball.is_plane());
+    assert_eq!(ball.size(2).dofs, 3 * ball.size(2).nodes);
+}
+
+#[test]
+fn plane_and_solid_bodies_are_not_mixed() {
+    let solid = "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (1, 1, 1))";
+    let plate = "Rectangle(min: (0, 2), max: (4, 3), cells: (8, 2))";
+    let error = changed(plate, solid).unwrap_err();
+    let fault = error
+        .faults()
+        .iter()
+        .find(|f| f.path == "bodies.plate.mesh");
+    let message = &fault.unwrap().message;
+    assert!(
+        message.contains("is a solid mesh, but body `wheel` is plane"),
+        "{message}"
+    );
+    let text = format!(
+        r#"(title: "x", symmetry: PlaneStrain, materials: {{ "m": (law: BlatzKo(G: 1), density: 1) }},
+        bodies: {{ "a": (mesh: {solid}, material: "m") }}, time: (end: 1, dt: 1))"#
+    );
+    let error = parse("x.ron", &text, &[]).unwrap_err().to_string();
+    assert!(
+        error.contains("symmetry") && error.contains("leave it out"),
+        "{error}"
+    );
+}
+
+#[test]
+fn nothing_leaves_the_plane() {
+    let cases: &[(&str, &str, &str, &[&str])] = &[
+        (
+            "(1, 0, 0))",
+            "(1, 0, 2))",
+            "bodies.wheel.velocity.2",
+            &["no z"],
+        ),
+        (
+            "-0.1)], 0)",
+            "-0.1)], 1)",
+            "motions.top.motion.translation.2",
+            &["no z"],
+        ),
+        (
+            "nodes: \"plate.y_max\"",
+            "components: \"z\", nodes: \"plate.y_max\"",
+            "motions.top.components",
+            &["x or y"],
+        ),
+        (
+            "-0.1)], 0)",
+            "0)], 0), rotation: (point: (0, 0, 0), axis: (0, 1, 1), angle: 1)",
+            "motions.top.motion.rotation.axis",
+            &["along z"],
+        ),
+        ("-9.81, 0", "-9.81, 1", "loads.weight.2", &["no z"]),
+        (
+            "normal: (0, 1, 0)",
+            "normal: (0, 1, 1)",
+            "interfaces.ground.master.normal.2",
+            &["no z"],
+        ),
+        (
+            "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
+            "Sphere(center: (0, 0, 1), radius: 1)",
+            "interfaces.ground.master.center.2",
+            &["no z"],
+        ),
+        (
+            "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
+            "Cylinder(point: (0, 0, 0), axis: (1, 0, 1), radius: 1)",
+            "interfaces.ground.master.axis.2",
+            &["no z"],
+        ),
+        (
+            "node: (1, 1, 0)",
+            "node: (1, 1, 1)",
+            "output.probes.hub.node.2",
+            &["no z"],
+        ),
+        (
+            "radius: 1",
+            "radius: 0",
+            "bodies.wheel.mesh.radius",
+            &["greater than 0"],
+        ),
+        (
+            "max: (4, 3)",
+            "max: (4, 1)",
+            "bodies.plate.mesh.max.1",
+            &["inverted"],
+        ),
+        (
+            "cells: 4",
+            "cells: 0",
+            "bodies.wheel.mesh.cells",
+            &["1 or more"],
+        ),
+        (
+            "wheel.rim\", master: Plane",
+            "wheel.dome\", master: Plane",
+            "interfaces.ground.slave",
+            &["`rim`"],
+        ),
+    ];
+    for (from, to, path, words) in cases {
+        refused(from, to, path, words);
+    }
+    let cylinder = "Cylinder(point: (0, 0, 5), axis: (0, 0, 2), radius: 1)";
+    changed("Plane(point: (0, 0, 0), normal: (0, 1, 0))", cylinder).unwrap();
+}
+
+#[test]
+fn an_axisymmetric_scene_keeps_its_axis() {
+    let end = "time: (end: 1, dt: 0.1)";
+    changed(end, &format!("{end}, symmetry: Axisymmetric")).unwrap();
+    let text = PLANE.replace(end, &format!("{end}, symmetry: Axisymmetric"));
+    let refuse = |from: &str, to: &str, path: &str, words: &[&str]| {
+        let error = parse("ring.ron", &text.replace(from, to), &[]).expect_err(to);
+        let fault = &error.faults()[0];
+        assert_eq!(
+            (error.faults().len(), fault.path.as_str()),
+            (1, path),
+            "{error}"
+        );
+        assert!(
+            words.iter().all(|word| fault.message.contains(word)),
+            "{fault}"
+        );
+    };
+    refuse(
+        "min: (0, 2)",
+        "min: (-1, 2)",
+        "bodies.plate.mesh",
+        &["x = -1", "radius"],
+    );
+    refuse(
+        "center: (1, 1)",
+        "center: (0, 1)",
+        "bodies.wheel.mesh",
+        &["x = -1"],
+    );
+    refuse("(0, -9.81", "(1, -9.81", "loads.weight.0", &["no symmetry"]);
+    refuse(
+        "-0.1)], 0)",
+        "0)], 0), rotation: (point: (0, 0, 0), axis: (0, 0, 1), angle: 1)",
+        "motions.top.motion.rotation",
+        &["cannot turn"],
+    );
+    refuse(
+        "normal: (0, 1, 0))",
+        "normal: (0, 1, 0)), motion: Move(translation: (1, 0, 0))",
+        "interfaces.ground.motion.translation.0",
+        &["keeps its radius"],
+    );
+}
+
+#[test]
+fn a_plane_picture_is_flat_and_to_scale() {
+    // A square of two triangles beside a square of 2 m: in the picture the second is twice as wide and high.
+    let points = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [2.0, 0.0, 0.0],
+        [4.0, 0.0, 0.0],
+        [4.0, 2.0, 0.0],
+        [2.0, 2.0, 0.0],
+    ];
+    let frame = Frame {
+        time: 0.0,
+        points: &points,
+        cells: vec![
+            Cells {
+                shape: CellShape::Tri3,
+                connectivity: &[0, 1, 2, 0, 2, 3],
+            },
+            Cells {
+                shape: CellShape::Quad4,
+                connectivity: &[4, 5, 6, 7],
+            },
+        ],
+        point_data: vec![],
+        cell_data: vec![Array {
+            name: "von_mises",
+            values: Values::Scalar(&[0.0, 1.0, 2.0]),
+        }],
+    };
+    let svg = deformed_svg("plane", &frame).unwrap();
+    let outlines: Vec<Vec<[f64; 2]>> = svg
+        .lines()
+        .filter(|line| line.starts_with("<polyline") && line.contains("opacity=\"0.45\""))
+        .map(|line| {
+            let points = line
+                .split("points=\"")
+                .nth(1)
+                .unwrap()
+                .split('"')
+                .next()
+                .unwrap();
+            let pair = |p: &str| {
+                let (x, y) = p.split_once(',').unwrap();
+                [x.parse().unwrap(), y.parse().unwrap()]
+            };
+            points.split_whitespace().map(pair).collect()
+        })
+        .collect();
+    assert_eq!(outlines.len(), 3, "one outline a cell");
+    let extent = |outline: &[[f64; 2]], k: usize| {
+        let along = outline.iter().map(|p| p[k]);
+        along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
+    };
+    let large = outlines
+        .iter()
+        .max_by(|a, b| extent(a, 0).total_cmp(&extent(b, 0)))
+        .unwrap();
+    let (width, height) = (extent(large, 0), extent(large, 1));
+    assert!(
+        width > 500.0 && (width - height).abs() <= 1.0,
+        "{width} x {height}"
+    );
+    for small in outlines.iter().filter(|o| o.len() == 4) {
+        for k in [0, 1] {
+            assert!((2.0 * extent(small, k) - width).abs() <= 2.0);
+        }
+    }
+    // Only x and y are shown.
+    assert!(svg.contains("von Mises [Pa]") && !svg.contains("\nz\n"));
+}
