@@ -1,22 +1,24 @@
 //! Blocks: elements of one kind with one material, seen through an object-safe trait.
 
 mod kernel;
+mod plane_kernel;
 mod solid_block;
 
 use std::fmt::Debug;
 
 use hyperelastic::Material;
 
-use crate::element::{Hex8, Tet4};
+use crate::element::{Element, Hex8, Quad4, Tet4, Tri3};
 use crate::error::FeError;
-use crate::mesh::{CellKind, Mesh};
+use crate::mesh::{CellKind, Mesh, Symmetry};
 
 pub use solid_block::SolidBlock;
 
 /// Stress and volume change of one element.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ElementState {
-    /// Cauchy stress averaged over the current volume \[Pa\]: 11 22 33 12 13 23.
+    /// Cauchy stress averaged over the current volume \[Pa\]: 11 22 33 12 13 23. In the plane 33 is the stress
+    /// across it: along z, or the hoop stress.
     pub cauchy: [f64; 6],
     /// Von Mises stress of the averaged tensor \[Pa\].
     pub von_mises: f64,
@@ -34,13 +36,19 @@ pub struct ElementState {
 /// - tangents: [`tangent_len`] entries an element, see [`tangent_index`];
 /// - masses: `n n` entries an element, `n a + b`.
 ///
+/// Units are those of space; plane strain means one metre of thickness, see [`Symmetry`].
+///
 /// On an error the buffers hold no meaning. A displacement or a buffer of a wrong length is
 /// [`FeError::Length`].
 pub trait Block: Debug + Send + Sync {
     /// Name, for errors.
     fn name(&self) -> &str;
+    /// What the elements stand for: space, plane strain, or rings.
+    fn symmetry(&self) -> Symmetry;
     /// Unknowns per node.
-    fn dim(&self) -> usize;
+    fn dim(&self) -> usize {
+        self.symmetry().dim()
+    }
     /// Number of elements.
     fn element_count(&self) -> usize;
     /// Nodes of an element.
@@ -111,19 +119,25 @@ pub fn solid_block<M: Material>(
     material: M,
     density: f64,
 ) -> Result<Box<dyn Block>, FeError> {
-    let block = solid_block::cell_block(mesh, block_index)?;
-    Ok(match block.kind {
-        CellKind::Hex8 => Box::new(SolidBlock::<Hex8, M>::new(
-            mesh,
-            block_index,
-            material,
-            density,
-        )?),
-        CellKind::Tet4 => Box::new(SolidBlock::<Tet4, M>::new(
-            mesh,
-            block_index,
-            material,
-            density,
-        )?),
-    })
+    let boxed = match solid_block::cell_block(mesh, block_index)?.kind {
+        CellKind::Hex8 => boxed::<Hex8, M, 8>,
+        CellKind::Tet4 => boxed::<Tet4, M, 4>,
+        CellKind::Quad4 => boxed::<Quad4, M, 4>,
+        CellKind::Tri3 => boxed::<Tri3, M, 3>,
+    };
+    boxed(mesh, block_index, material, density)
+}
+
+fn boxed<E, M, const N: usize>(
+    mesh: &Mesh,
+    block_index: usize,
+    material: M,
+    density: f64,
+) -> Result<Box<dyn Block>, FeError>
+where
+    E: Element<Nodal = [f64; N]>,
+    M: Material,
+{
+    let block = SolidBlock::<E, M>::new(mesh, block_index, material, density)?;
+    Ok(Box::new(block))
 }

@@ -83,7 +83,7 @@ pub struct DeadTraction {
 }
 
 impl DeadTraction {
-    /// Nodal forces \[N; N per metre of thickness in the plane\] for a factor of one.
+    /// Nodal forces \[N\] for a factor of one.
     ///
     /// # Errors
     /// [`FeError::Surface`] if there are no facets, [`FeError::Index`] if a node does not exist,
@@ -93,7 +93,7 @@ impl DeadTraction {
         let surface = Surface::new(self.facets.clone())?;
         check_nodes(surface.nodes.iter(), mesh)?;
         let mut forces = vec![0.0; mesh.dim * mesh.points.len()];
-        let areas = surface.tributary_areas(&mesh.points);
+        let areas = surface.tributary_areas(mesh);
         for (&node, area) in surface.nodes.iter().zip(areas) {
             for i in 0..mesh.dim {
                 forces[mesh.dim * node as usize + i] = area * self.traction[i];

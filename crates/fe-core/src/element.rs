@@ -1,12 +1,16 @@
 //! Isoparametric elements: shape functions, their derivatives and quadrature.
 
 pub mod hex8;
+pub mod quad4;
 pub mod tet4;
+pub mod tri3;
 
 use std::fmt::Debug;
 
 pub use hex8::Hex8;
+pub use quad4::Quad4;
 pub use tet4::Tet4;
+pub use tri3::Tri3;
 
 use crate::mesh::CellKind;
 use crate::quadrature::QuadraturePoint;
@@ -16,7 +20,9 @@ pub trait Nodal: Copy + Debug + Send + Sync + AsRef<[f64]> + 'static {}
 
 impl<const N: usize> Nodal for [f64; N] {}
 
-/// Shape functions and quadrature of a solid element in space.
+/// Shape functions and quadrature of an element in space or in the plane.
+///
+/// Plane elements do not depend on the third reference coordinate: their derivatives with respect to it are zero.
 ///
 /// A new element is one file with this implementation and one line in [`CellKind`]; the battery
 /// [`crate::conformance::check_element`] tells what is wrong with it.
@@ -49,15 +55,20 @@ pub fn corner_points<const N: usize>(points: &[[f64; 3]], cell: &[u32]) -> [[f64
     std::array::from_fn(|a| points[cell[a] as usize])
 }
 
-/// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, stored `[i][j]`.
+/// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, stored `[i][j]`. In the plane the third
+/// coordinate is ignored and its row and column are those of the identity.
 pub fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> [[f64; 3]; 3]
 where
     E: Element<Nodal = [f64; N]>,
 {
     let dn = E::shape_derivatives(xi);
+    let dim = E::KIND.dim();
     let mut jac = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
+    if dim == 2 {
+        jac[2][2] = 1.0;
+    }
+    for i in 0..dim {
+        for j in 0..dim {
             for a in 0..N {
                 jac[i][j] += points[a][i] * dn[j][a];
             }
@@ -66,7 +77,8 @@ where
     jac
 }
 
-/// Gradients `dN_a/dX_J` \[1/m\] stored `\[J\][a]`, and the determinant of the Jacobian \[m^3\].
+/// Gradients `dN_a/dX_J` \[1/m\] stored `\[J\][a]`, and the determinant of the Jacobian \[m^3; m^2 in the
+/// plane\]. In the plane the third row is zero.
 ///
 /// The gradients are meaningless unless the determinant is positive.
 pub fn reference_gradients<E, const N: usize>(
@@ -87,7 +99,7 @@ where
     (gradients, det)
 }
 
-/// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3\].
+/// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3; m^2 in the plane\].
 pub(crate) fn bad_jacobian<E, const N: usize>(
     points: &[[f64; 3]],
     cell: &[u32],

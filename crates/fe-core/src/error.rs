@@ -1,16 +1,36 @@
 //! Errors of this crate: what is wrong, where, and what to try.
 
-use crate::mesh::CellKind;
+use crate::mesh::{CellKind, Symmetry};
 
 /// What makes a mesh unusable.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeshError {
-    /// The number of unknowns per node is neither 2 nor 3.
-    #[error("a mesh has 2 or 3 unknowns a node, not {dim}")]
+    /// The number of unknowns per node does not belong to the symmetry.
+    #[error("a mesh with symmetry {symmetry:?} has {} unknowns a node, not {dim}", symmetry.dim())]
     Dimension {
         /// The refused value.
         dim: usize,
+        /// Symmetry of the mesh.
+        symmetry: Symmetry,
+    },
+    /// Meshes or blocks of different symmetry, which cannot belong to one solid.
+    #[error(
+        "symmetry {actual:?} does not go with {expected:?}; all bodies are in space, or all in plane strain, or all axisymmetric"
+    )]
+    Symmetry {
+        /// Symmetry of the mesh.
+        expected: Symmetry,
+        /// Symmetry of what was added.
+        actual: Symmetry,
+    },
+    /// A point of an axisymmetric mesh on the wrong side of the axis.
+    #[error("point {node}: the radius x = {radius:e} of an axisymmetric mesh must not be negative")]
+    NegativeRadius {
+        /// Index of the point.
+        node: usize,
+        /// Its first coordinate \[m\].
+        radius: f64,
     },
     /// A mesh without points or without cells.
     #[error("the mesh has no {what}")]
@@ -122,12 +142,12 @@ pub enum MeshError {
         known: String,
     },
     /// A structured mesh that cannot be generated.
-    #[error("box mesh, axis {axis}: {what} = {value}, {bound}")]
-    Box {
-        /// Axis, 0 to 2.
-        axis: usize,
+    #[error("{shape} mesh: {what} = {value}, {bound}")]
+    Shape {
+        /// The generator.
+        shape: &'static str,
         /// The quantity.
-        what: &'static str,
+        what: String,
         /// Its value.
         value: f64,
         /// The bound that it violates.

@@ -5,6 +5,9 @@
 //! in a fixed order, so that results are the same bits for any number of threads. [`SymmetricPattern`]
 //! turns element tangents into the lower triangle of a sparse matrix.
 //!
+//! Plane problems ([`Symmetry`]) have two unknowns a node: plane strain, where forces, masses and energies are those of
+//! one metre of thickness, and axisymmetric, where they are those of the whole ring.
+//!
 //! Unknowns are displacements \[m\], stored flat: component `i` of node `a` is entry `dim * a + i`.
 //! Second-order symmetric tensors are stored as 11 22 33 12 13 23.
 
@@ -27,11 +30,14 @@ mod vector;
 
 pub use block::{Block, ElementState, SolidBlock, solid_block};
 pub use constraint::{DeadTraction, Dirichlet, Gravity};
-pub use element::{Element, Hex8, Tet4};
+pub use element::{Element, Hex8, Quad4, Tet4, Tri3};
 pub use error::{FeError, MeshError};
 pub use mass::MassMatrix;
-pub use mesh::generate::BoxMesh;
-pub use mesh::{CellBlock, CellKind, Facet, Mesh};
+pub use mesh::generate::{
+    AnnulusMesh, BoxMesh, DiscMesh, HalfBallMesh, HalfDiscMesh, Pole, QuarterDiscMesh,
+    RectangleMesh,
+};
+pub use mesh::{CellBlock, CellKind, Facet, Mesh, Symmetry};
 pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};
 pub use solid::{ElementWorkspace, Solid};

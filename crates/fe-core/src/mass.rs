@@ -4,7 +4,7 @@ use crate::parallel::for_each_row;
 use crate::pattern::Adjacency;
 use crate::solid::Solid;
 
-/// A symmetric mass matrix \[kg\]: one number for each pair of nodes, the same for each component.
+/// A symmetric mass matrix \[kg; kg/m in plane strain\]: one number for each pair of nodes, the same for each component.
 ///
 /// Stored by rows, both triangles, columns sorted.
 #[derive(Debug, Clone, PartialEq)]

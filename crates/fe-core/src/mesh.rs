@@ -4,7 +4,7 @@ pub mod generate;
 
 use std::collections::BTreeMap;
 
-use crate::element::{self, Hex8, Tet4};
+use crate::element::{self, Hex8, Quad4, Tet4, Tri3};
 use crate::error::MeshError;
 
 /// Shape of a cell, with VTK node order.
@@ -15,6 +15,10 @@ pub enum CellKind {
     Hex8,
     /// Linear tetrahedron.
     Tet4,
+    /// Bilinear quadrilateral in the plane, counter-clockwise.
+    Quad4,
+    /// Linear triangle in the plane, counter-clockwise.
+    Tri3,
 }
 
 impl CellKind {
@@ -22,22 +26,26 @@ impl CellKind {
     pub fn node_count(self) -> usize {
         match self {
             CellKind::Hex8 => 8,
-            CellKind::Tet4 => 4,
+            CellKind::Tet4 | CellKind::Quad4 => 4,
+            CellKind::Tri3 => 3,
         }
     }
 
     /// Dimension of the cell, 2 or 3.
-    pub fn dim(self) -> usize {
+    pub const fn dim(self) -> usize {
         match self {
             CellKind::Hex8 | CellKind::Tet4 => 3,
+            CellKind::Quad4 | CellKind::Tri3 => 2,
         }
     }
 
-    /// Local nodes of each facet, outward by the right-hand rule.
+    /// Local nodes of each facet, outward as in [`Facet`].
     pub fn facets(self) -> &'static [&'static [usize]] {
         match self {
             CellKind::Hex8 => &element::hex8::FACETS,
             CellKind::Tet4 => &element::tet4::FACETS,
+            CellKind::Quad4 => &element::quad4::FACETS,
+            CellKind::Tri3 => &element::tri3::FACETS,
         }
     }
 
@@ -46,6 +54,8 @@ impl CellKind {
         match self {
             CellKind::Hex8 => 12,
             CellKind::Tet4 => 10,
+            CellKind::Quad4 => 9,
+            CellKind::Tri3 => 5,
         }
     }
 
@@ -54,6 +64,51 @@ impl CellKind {
         match self {
             CellKind::Hex8 => element::bad_jacobian::<Hex8, 8>(points, cell),
             CellKind::Tet4 => element::bad_jacobian::<Tet4, 4>(points, cell),
+            CellKind::Quad4 => element::bad_jacobian::<Quad4, 4>(points, cell),
+            CellKind::Tri3 => element::bad_jacobian::<Tri3, 3>(points, cell),
+        }
+    }
+}
+
+/// What is the same all along a direction that the mesh does not have.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub enum Symmetry {
+    /// The mesh has all three directions.
+    #[default]
+    None,
+    /// No displacement along z, nothing changes with z: forces \[N/m\], masses \[kg/m\] and energies \[J/m\] are
+    /// those of one metre of thickness.
+    PlaneStrain,
+    /// Nothing changes around the y axis, no torsion: x is the radius, never negative. Forces, masses, areas and
+    /// energies are those of the whole ring. Nodes on the axis must be held in x.
+    Axisymmetric,
+}
+
+impl Symmetry {
+    /// Unknowns per node, 2 or 3.
+    pub const fn dim(self) -> usize {
+        match self {
+            Symmetry::None => 3,
+            Symmetry::PlaneStrain | Symmetry::Axisymmetric => 2,
+        }
+    }
+
+    /// Demands that two meshes, or a mesh and a block, stand for the same.
+    pub(crate) fn same_as(self, actual: Symmetry) -> Result<(), MeshError> {
+        if self == actual {
+            return Ok(());
+        }
+        Err(MeshError::Symmetry {
+            expected: self,
+            actual,
+        })
+    }
+
+    /// What a unit of the mesh stands for at the coordinate `x` \[m\]: the circumference `2 pi x` of a ring, else one.
+    pub(crate) fn extent(self, x: f64) -> f64 {
+        match self {
+            Symmetry::Axisymmetric => std::f64::consts::TAU * x,
+            Symmetry::None | Symmetry::PlaneStrain => 1.0,
         }
     }
 }
@@ -145,6 +200,8 @@ impl Facet {
 pub struct Mesh {
     /// Unknowns per node: 3 in space, 2 in the plane (then the third coordinate is ignored).
     pub dim: usize,
+    /// What the plane stands for; [`Symmetry::None`] in space.
+    pub symmetry: Symmetry,
     /// Reference coordinates \[m\].
     pub points: Vec<[f64; 3]>,
     /// Blocks of cells.
@@ -157,12 +214,17 @@ pub struct Mesh {
 
 impl Mesh {
     /// Adds another mesh with its own nodes. Its set `name` becomes `prefix.name`; blocks keep their names.
-    /// An empty `prefix` keeps the names of sets too. A set that exists already is extended.
-    pub fn append(&mut self, prefix: &str, other: Mesh) {
+    /// An empty `prefix` keeps the names of sets too. A set that exists already is extended. An empty mesh takes the
+    /// dimension and the symmetry of the other.
+    ///
+    /// # Errors
+    /// [`MeshError::Symmetry`] if the two differ in symmetry; nothing is added then.
+    pub fn append(&mut self, prefix: &str, other: Mesh) -> Result<(), MeshError> {
         let shift = self.points.len() as u32;
         if self.blocks.is_empty() && self.points.is_empty() {
-            self.dim = other.dim;
+            (self.dim, self.symmetry) = (other.dim, other.symmetry);
         }
+        self.symmetry.same_as(other.symmetry)?;
         let rename = |name: String| match prefix {
             "" => name,
             _ => format!("{prefix}.{name}"),
@@ -184,6 +246,7 @@ impl Mesh {
                 facet
             }));
         }
+        Ok(())
     }
 
     /// The node set of that name.
@@ -231,8 +294,11 @@ impl Mesh {
     /// # Errors
     /// The first defect found, with block and element.
     pub fn validate(&self) -> Result<(), MeshError> {
-        if self.dim != 2 && self.dim != 3 {
-            return Err(MeshError::Dimension { dim: self.dim });
+        if self.dim != self.symmetry.dim() {
+            return Err(MeshError::Dimension {
+                dim: self.dim,
+                symmetry: self.symmetry,
+            });
         }
         self.validate_points()?;
         let mut used = vec![false; self.points.len()];
@@ -254,12 +320,19 @@ impl Mesh {
             return Err(MeshError::Empty { what: "cells" });
         }
         let finite = |point: &[f64; 3]| point.iter().all(|x| x.is_finite());
-        match self.points.iter().position(|point| !finite(point)) {
-            Some(node) => Err(MeshError::PointNotFinite {
+        if let Some(node) = self.points.iter().position(|point| !finite(point)) {
+            return Err(MeshError::PointNotFinite {
                 node,
                 point: self.points[node],
+            });
+        }
+        let axisymmetric = self.symmetry == Symmetry::Axisymmetric;
+        match self.points.iter().position(|point| point[0] < 0.0) {
+            Some(node) if axisymmetric => Err(MeshError::NegativeRadius {
+                node,
+                radius: self.points[node][0],
             }),
-            None => Ok(()),
+            _ => Ok(()),
         }
     }
 

@@ -3,9 +3,9 @@
 /// A point of a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct QuadraturePoint {
-    /// Position in the reference element \[-\].
+    /// Position in the reference element \[-\]; the third coordinate is zero in the plane.
     pub xi: [f64; 3],
-    /// Weight \[-\]; the weights of a rule sum to the volume of the reference element.
+    /// Weight \[-\]; the weights of a rule sum to the volume (area) of the reference element.
     pub weight: f64,
 }
 
@@ -35,6 +35,22 @@ pub static TETRAHEDRON_1: [QuadraturePoint; 1] = [QuadraturePoint {
 /// Four points in the reference tetrahedron (volume 1/6), exact to degree 2.
 pub static TETRAHEDRON_4: [QuadraturePoint; 4] = tetrahedron_4();
 
+/// Two by two Gauss points on \[-1, 1\]^2, exact to degree 3 in each direction; point `q` lies next to node
+/// `q` of the quadrilateral.
+pub static QUADRILATERAL_4: [QuadraturePoint; 4] = quadrilateral_4();
+
+/// Three by three Gauss points on \[-1, 1\]^2, exact to degree 5 in each direction.
+pub static QUADRILATERAL_9: [QuadraturePoint; 9] = quadrilateral_9();
+
+/// Centroid of the reference triangle (area 1/2), exact to degree 1.
+pub static TRIANGLE_1: [QuadraturePoint; 1] = [QuadraturePoint {
+    xi: [1.0 / 3.0, 1.0 / 3.0, 0.0],
+    weight: 0.5,
+}];
+
+/// Six points in the reference triangle (area 1/2), exact to degree 4.
+pub static TRIANGLE_6: [QuadraturePoint; 6] = triangle_6();
+
 const fn hexahedron_8() -> [QuadraturePoint; 8] {
     let nodes = &crate::element::hex8::REFERENCE_NODES;
     let mut rule = [ORIGIN; 8];
@@ -57,6 +73,49 @@ const fn hexahedron_27() -> [QuadraturePoint; 27] {
         let (i, j, k) = (q % 3, q / 3 % 3, q / 9);
         rule[q].xi = [x[i], x[j], x[k]];
         rule[q].weight = w[i] * w[j] * w[k];
+        q += 1;
+    }
+    rule
+}
+
+const fn quadrilateral_4() -> [QuadraturePoint; 4] {
+    let nodes = &crate::element::quad4::REFERENCE_NODES;
+    let mut rule = [ORIGIN; 4];
+    let mut q = 0;
+    while q < 4 {
+        rule[q].xi = [nodes[q][0] * GAUSS_2, nodes[q][1] * GAUSS_2, 0.0];
+        rule[q].weight = 1.0;
+        q += 1;
+    }
+    rule
+}
+
+const fn quadrilateral_9() -> [QuadraturePoint; 9] {
+    let x = [-GAUSS_3, 0.0, GAUSS_3];
+    let w = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
+    let mut rule = [ORIGIN; 9];
+    let mut q = 0;
+    while q < 9 {
+        rule[q].xi = [x[q % 3], x[q / 3], 0.0];
+        rule[q].weight = w[q % 3] * w[q / 3];
+        q += 1;
+    }
+    rule
+}
+
+/// Two orbits of three points: with `s = sqrt(38 - 44 sqrt(2/5))` at `(8 - sqrt 10 +- s)/18` from two sides.
+const fn triangle_6() -> [QuadraturePoint; 6] {
+    let side = [0.445_948_490_915_964_9, 0.091_576_213_509_770_74];
+    let weight = [0.111_690_794_839_005_73, 0.054_975_871_827_660_93];
+    let mut rule = [ORIGIN; 6];
+    let mut q = 0;
+    while q < 6 {
+        let (orbit, corner) = (q / 3, q % 3);
+        rule[q].xi = [side[orbit], side[orbit], 0.0];
+        if corner < 2 {
+            rule[q].xi[corner] = 1.0 - 2.0 * side[orbit];
+        }
+        rule[q].weight = weight[orbit];
         q += 1;
     }
     rule
@@ -125,6 +184,28 @@ mod tests {
                         let found = integrate(rule, |x| x[0].powi(p) * x[1].powi(q) * x[2].powi(r));
                         assert!((found - exact).abs() < 1e-15, "degree {p} {q} {r}");
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn plane_rules_integrate_monomials_of_their_degree() {
+        for (rule, degree) in [(&QUADRILATERAL_4[..], 3), (&QUADRILATERAL_9[..], 5)] {
+            for p in 0..=degree {
+                for q in 0..=degree {
+                    let exact = on_interval(p) * on_interval(q);
+                    let found = integrate(rule, |x| x[0].powi(p) * x[1].powi(q));
+                    assert!((found - exact).abs() < 1e-14, "degree {p} {q}");
+                }
+            }
+        }
+        for (rule, degree) in [(&TRIANGLE_1[..], 1), (&TRIANGLE_6[..], 4)] {
+            for p in 0..=degree {
+                for q in 0..=degree - p {
+                    let exact = factorial(p) * factorial(q) / factorial(p + q + 2);
+                    let found = integrate(rule, |x| x[0].powi(p) * x[1].powi(q));
+                    assert!((found - exact).abs() < 1e-15, "degree {p} {q}");
                 }
             }
         }

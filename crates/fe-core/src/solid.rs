@@ -52,14 +52,14 @@ impl Solid {
     /// Checks mesh and blocks, and computes the gather maps.
     ///
     /// # Errors
-    /// [`FeError::Mesh`] for an invalid mesh, [`FeError::Length`] if a block has another dimension than the
-    /// mesh, [`FeError::Index`] if a block refers to a node that does not exist, or a node has no block,
+    /// [`FeError::Mesh`] for an invalid mesh or a block of another symmetry than the mesh,
+    /// [`FeError::Index`] if a block refers to a node that does not exist, or a node has no block,
     /// [`FeError::TooLarge`] beyond 32-bit indices.
     pub fn new(mesh: Mesh, blocks: Vec<Box<dyn Block>>) -> Result<Solid, FeError> {
         mesh.validate()?;
         let nodes = mesh.points.len();
         for block in &blocks {
-            check_length("unknowns of a node of the block", mesh.dim, block.dim())?;
+            mesh.symmetry.same_as(block.symmetry())?;
             if let Some(&node) = block.connectivity().iter().find(|&&n| n as usize >= nodes) {
                 return Err(FeError::Index {
                     what: "node",

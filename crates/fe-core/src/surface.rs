@@ -1,7 +1,7 @@
 //! Surfaces: facets with their nodes, areas, normals and neighbours.
 
 use crate::error::FeError;
-use crate::mesh::Facet;
+use crate::mesh::{Facet, Mesh, Symmetry};
 use crate::quadrature::GAUSS_2;
 use crate::vector::{cross, dot, minus, norm, unit};
 
@@ -73,13 +73,13 @@ impl Surface {
     }
 
     /// Area that belongs to each node: the integral of its shape function over the facets, per surface
-    /// index \[m^2; m for unit thickness in the plane\].
+    /// index \[m^2\]; for one metre of thickness in plane strain, for the whole ring if axisymmetric.
     ///
-    /// `points` are the reference coordinates of the whole mesh \[m\].
-    pub fn tributary_areas(&self, points: &[[f64; 3]]) -> Vec<f64> {
+    /// `mesh` is the whole mesh, of which only points and symmetry matter.
+    pub fn tributary_areas(&self, mesh: &Mesh) -> Vec<f64> {
         let mut areas = vec![0.0; self.nodes.len()];
         for (facet, corners) in self.facets.iter().zip(&self.corners) {
-            let shares = facet_shares(facet, points);
+            let shares = facet_shares(facet, &mesh.points, mesh.symmetry);
             for (share, &index) in shares.iter().zip(&corners[..facet.nodes().len()]) {
                 areas[index as usize] += share;
             }
@@ -159,14 +159,16 @@ fn facets_around_nodes(corners: &Vec<[u32; 4]>, nodes: usize) -> (Vec<u32>, Vec<
     (offsets, around)
 }
 
-/// Integral of each shape function over a facet \[m^2, m in the plane\]; unused entries are zero.
-fn facet_shares(facet: &Facet, points: &[[f64; 3]]) -> [f64; 4] {
+/// Integral of each shape function over a facet \[m^2\]; unused entries are zero.
+fn facet_shares(facet: &Facet, points: &[[f64; 3]], symmetry: Symmetry) -> [f64; 4] {
     let x = |m: usize| points[facet.nodes[m] as usize];
     match facet.nodes().len() {
         2 => {
-            let d = minus(&x(1), &x(0));
-            let half = 0.5 * d[0].hypot(d[1]);
-            [half, half, 0.0, 0.0]
+            let (a, b) = (x(0), x(1));
+            let half = 0.5 * (b[0] - a[0]).hypot(b[1] - a[1]);
+            // Exact for shape functions and a radius that are linear along the edge.
+            let share = |near: f64, far: f64| half * symmetry.extent((2.0 * near + far) / 3.0);
+            [share(a[0], b[0]), share(b[0], a[0]), 0.0, 0.0]
         }
         3 => {
             let normal = cross(&minus(&x(1), &x(0)), &minus(&x(2), &x(0)));

@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use fe_core::block::{Block, tangent_len};
-use fe_core::{BoxMesh, CellKind, Solid, SymmetricPattern, solid_block};
+use fe_core::{BoxMesh, CellKind, RectangleMesh, Solid, SymmetricPattern, Symmetry, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff};
 
 const REPEATS: usize = 200;
@@ -37,23 +37,41 @@ fn block<M: Material>(kind: CellKind, material: M) -> (Box<dyn Block>, Vec<f64>)
     (solid_block(&mesh, 0, material, 1.0).unwrap(), u)
 }
 
+fn plane_block<M: Material>(
+    kind: CellKind,
+    symmetry: Symmetry,
+    material: M,
+) -> (Box<dyn Block>, Vec<f64>) {
+    let mut mesh = RectangleMesh::uniform([0.0; 2], [1.0; 2], [24; 2])
+        .with_kind(kind)
+        .generate("plate")
+        .unwrap();
+    mesh.symmetry = symmetry;
+    let wave = |x: &[f64; 3]| [0.05 * x[0] * (x[1] * 3.0).sin(), 0.04 * (x[0] * 2.0).cos()];
+    let u = mesh.points.iter().flat_map(wave).collect();
+    (solid_block(&mesh, 0, material, 1.0).unwrap(), u)
+}
+
 fn measure<M: Material>(name: &str, kind: CellKind, material: M) {
     let (block, u) = block(kind, material);
+    measure_block(&format!("{name}, {kind:?}"), block.as_ref(), &u);
+}
+
+fn measure_block(name: &str, block: &dyn Block, u: &[f64]) {
+    let dim = block.dim();
     let (count, nodes) = (block.element_count(), block.nodes_per_element());
-    let mut forces = vec![0.0; 3 * nodes * count];
+    let mut forces = vec![0.0; dim * nodes * count];
     let mut energies = vec![0.0; count];
-    let mut tangents = vec![0.0; tangent_len(3, nodes) * count];
+    let mut tangents = vec![0.0; tangent_len(dim, nodes) * count];
     let force = best(count, || {
-        block
-            .internal_force(&u, &mut forces, &mut energies)
-            .unwrap();
+        block.internal_force(u, &mut forces, &mut energies).unwrap();
     });
     let tangent = best(count, || {
         block
-            .tangent(&u, &mut forces, &mut energies, &mut tangents)
+            .tangent(u, &mut forces, &mut energies, &mut tangents)
             .unwrap();
     });
-    println!("{name:24} {kind:?}: force {force:7.0} ns, tangent {tangent:7.0} ns per element");
+    println!("{name:36}: force {force:7.0} ns, tangent {tangent:7.0} ns per element");
 }
 
 #[test]
@@ -73,6 +91,28 @@ fn kernels() {
                 kind,
                 SaintVenantKirchhoff::new(elastic).unwrap(),
             );
+        }
+    });
+}
+
+#[test]
+#[ignore = "a measurement"]
+fn plane_kernels() {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    let elastic = ElasticConstants::from_shear_lame(1.0, 1.0).unwrap();
+    pool.install(|| {
+        for kind in [CellKind::Quad4, CellKind::Tri3] {
+            for symmetry in [Symmetry::PlaneStrain, Symmetry::Axisymmetric] {
+                let name = |law: &str| format!("{law}, {kind:?}, {symmetry:?}");
+                let (block, u) = plane_block(kind, symmetry, BlatzKo::new(1.0).unwrap());
+                measure_block(&name("Blatz-Ko"), block.as_ref(), &u);
+                let law = SaintVenantKirchhoff::new(elastic).unwrap();
+                let (block, u) = plane_block(kind, symmetry, law);
+                measure_block(&name("Saint Venant"), block.as_ref(), &u);
+            }
         }
     });
 }

@@ -106,7 +106,8 @@ fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
         let part = part
             .generate(name)
             .map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
-        all.append(name, part);
+        all.append(name, part)
+            .map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
         first_node.push(all.points.len());
     }
     Ok((all, first_node))
@@ -244,7 +245,7 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
         Surface::new(facets.to_vec()).map_err(text)
     };
     let slave = surface(&given.slave)?;
-    let area = slave.tributary_areas(&mesh.points);
+    let area = slave.tributary_areas(mesh);
     let mut reach = facet_size(&slave, mesh);
     let master = match &given.master {
         spec::Master::Facets(set) => {

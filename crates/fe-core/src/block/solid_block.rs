@@ -4,20 +4,22 @@ use hyperelastic::Material;
 use rayon::prelude::*;
 
 use super::kernel::{self, Gradients, Inversion};
-use super::{Block, ElementState, tangent_len};
+use super::{Block, ElementState, plane_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
 use crate::kinematics::{cauchy_stress, determinant, right_cauchy_green, von_mises};
-use crate::mesh::{CellBlock, Mesh};
+use crate::mesh::{CellBlock, Mesh, Symmetry};
 use crate::parallel::{ELEMENTS_PER_TASK, sequential};
 
-/// Elements `E` of one mesh block with the material `M`, in total Lagrangian form.
+/// Elements `E` of one mesh block with the material `M`, in total Lagrangian form: in space, in plane strain, or
+/// axisymmetric, as the mesh says.
 ///
 /// Gradients of the shape functions and weights are computed once; the memory is about 1.8 kB for a
 /// hexahedron.
 #[derive(Debug, Clone)]
 pub struct SolidBlock<E: Element, M: Material> {
     name: String,
+    symmetry: Symmetry,
     dof_count: usize,
     connectivity: Vec<u32>,
     material: M,
@@ -35,6 +37,9 @@ struct Failure {
 }
 
 impl<E: Element, M: Material> SolidBlock<E, M> {
+    /// Unknowns per node.
+    const DIM: usize = E::KIND.dim();
+
     /// The elements of `mesh.blocks[block_index]` with a material and a density \[kg/m^3\].
     ///
     /// # Errors
@@ -61,15 +66,20 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
         for cell in block.iter() {
             let x = corner_points::<N>(&mesh.points, cell);
             for point in E::rule() {
-                let (gradient, det_j) = reference_gradients::<E, N>(&x, &point.xi);
+                let (mut gradient, det_j) = reference_gradients::<E, N>(&x, &point.xi);
+                let radius = first_coordinate::<E, N>(&x, &point.xi);
+                if mesh.symmetry == Symmetry::Axisymmetric {
+                    gradient[2] = E::shape(&point.xi).map(|n| n / radius);
+                }
                 gradients.push(gradient);
-                volumes.push(point.weight * det_j);
+                volumes.push(point.weight * det_j * mesh.symmetry.extent(radius));
             }
             corners.push([0, 1, 2].map(|i| x.map(|x| x[i])));
         }
         Ok(SolidBlock {
             name: block.name.clone(),
-            dof_count: 3 * mesh.points.len(),
+            symmetry: mesh.symmetry,
+            dof_count: Self::DIM * mesh.points.len(),
             connectivity: block.cells.clone(),
             material,
             density,
@@ -89,7 +99,8 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
         self.density
     }
 
-    /// Reference volume of each quadrature point \[m^3\], element after element.
+    /// Reference volume of each quadrature point \[m^3\], element after element; of one metre of thickness in plane
+    /// strain, of the ring if axisymmetric.
     pub fn point_volumes(&self) -> &[f64] {
         &self.volumes
     }
@@ -120,14 +131,14 @@ where
     E: Element<Nodal = [f64; N]>,
     M: Material,
 {
-    /// Displacements of an element's nodes \[m\], stored `[i][a]`.
+    /// Displacements of an element's nodes \[m\], stored `[i][a]`; the third row is zero in the plane.
     #[inline(always)]
     fn displacements(&self, element: usize, u: &[f64]) -> [[f64; N]; 3] {
         let mut local = [[0.0; N]; 3];
         for (a, &node) in self.cell(element).iter().enumerate() {
-            let start = 3 * node as usize;
-            let u = &u[start..start + 3];
-            (0..3).for_each(|i| local[i][a] = u[i]);
+            let start = Self::DIM * node as usize;
+            let u = &u[start..start + Self::DIM];
+            (0..Self::DIM).for_each(|i| local[i][a] = u[i]);
         }
         local
     }
@@ -141,10 +152,15 @@ where
         energies: &mut [f64],
     ) -> Option<Failure> {
         let mut local = [[0.0; N]; 3];
-        let slices = forces.chunks_exact_mut(3 * N).zip(energies);
+        let slices = forces.chunks_exact_mut(Self::DIM * N).zip(energies);
+        let kernel = if Self::DIM == 2 {
+            plane_kernel::internal_force
+        } else {
+            kernel::internal_force
+        };
         for (element, (force, energy)) in (first..).zip(slices) {
             let points = self.points_of(element);
-            let result = kernel::internal_force(
+            let result = kernel(
                 &self.material,
                 &self.displacements(element, u),
                 &self.gradients[points.clone()],
@@ -155,7 +171,7 @@ where
                 Ok(w) => *energy = w,
                 Err(inversion) => return Some(Failure { element, inversion }),
             }
-            store(&local, force);
+            store(Self::DIM, &local, force);
         }
         None
     }
@@ -172,25 +188,24 @@ where
         let mut local = [[0.0; N]; 3];
         let mut products = kernel::no_products::<N>();
         let slices = forces
-            .chunks_exact_mut(3 * N)
+            .chunks_exact_mut(Self::DIM * N)
             .zip(energies)
-            .zip(tangents.chunks_exact_mut(tangent_len(3, N)));
+            .zip(tangents.chunks_exact_mut(tangent_len(Self::DIM, N)));
         for (element, ((force, energy), tangent)) in (first..).zip(slices) {
             let points = self.points_of(element);
-            let result = kernel::tangent(
-                &self.material,
-                &self.displacements(element, u),
-                &self.gradients[points.clone()],
-                &self.volumes[points],
-                &mut local,
-                &mut products,
-                tangent,
-            );
+            let (material, u) = (&self.material, &self.displacements(element, u));
+            let (gradients, volumes) = (&self.gradients[points.clone()], &self.volumes[points]);
+            let f = &mut local;
+            let result = if Self::DIM == 2 {
+                plane_kernel::tangent(material, u, gradients, volumes, f, tangent)
+            } else {
+                kernel::tangent(material, u, gradients, volumes, f, &mut products, tangent)
+            };
             match result {
                 Ok(w) => *energy = w,
                 Err(inversion) => return Some(Failure { element, inversion }),
             }
-            store(&local, force);
+            store(Self::DIM, &local, force);
         }
         None
     }
@@ -203,6 +218,11 @@ where
             ..ElementState::default()
         };
         let mut volume = 0.0;
+        let deform = if Self::DIM == 2 {
+            plane_kernel::deform
+        } else {
+            kernel::deform
+        };
         for (point, q) in self.points_of(element).enumerate() {
             let fail = |det_f| Failure {
                 element,
@@ -210,7 +230,7 @@ where
             };
             let gradients: &Gradients<N> = &self.gradients[q];
             let (f, det_f) =
-                kernel::deform(&u, gradients, point).map_err(|inversion| fail(inversion.det_f))?;
+                deform(&u, gradients, point).map_err(|inversion| fail(inversion.det_f))?;
             let stress = self.material.stress(&right_cauchy_green(&f));
             let (_, s) = stress.map_err(|_| fail(det_f))?;
             let current = det_f * self.volumes[q];
@@ -235,8 +255,8 @@ where
         &self.name
     }
 
-    fn dim(&self) -> usize {
-        3
+    fn symmetry(&self) -> Symmetry {
+        self.symmetry
     }
 
     fn element_count(&self) -> usize {
@@ -259,13 +279,13 @@ where
     ) -> Result<(), FeError> {
         let count = self.element_count();
         check_length("displacement", self.dof_count, u.len())?;
-        check_length("element forces", 3 * N * count, forces.len())?;
+        check_length("element forces", Self::DIM * N * count, forces.len())?;
         check_length("element energies", count, energies.len())?;
         if sequential(count, ELEMENTS_PER_TASK) {
             return self.report(self.force_range(u, 0, forces, energies));
         }
         let failures = forces
-            .par_chunks_mut(3 * N * ELEMENTS_PER_TASK)
+            .par_chunks_mut(Self::DIM * N * ELEMENTS_PER_TASK)
             .zip(energies.par_chunks_mut(ELEMENTS_PER_TASK))
             .enumerate()
             .filter_map(|(task, (f, w))| self.force_range(u, task * ELEMENTS_PER_TASK, f, w));
@@ -279,16 +299,16 @@ where
         energies: &mut [f64],
         tangents: &mut [f64],
     ) -> Result<(), FeError> {
-        let (count, len) = (self.element_count(), tangent_len(3, N));
+        let (count, len) = (self.element_count(), tangent_len(Self::DIM, N));
         check_length("displacement", self.dof_count, u.len())?;
-        check_length("element forces", 3 * N * count, forces.len())?;
+        check_length("element forces", Self::DIM * N * count, forces.len())?;
         check_length("element energies", count, energies.len())?;
         check_length("element tangents", len * count, tangents.len())?;
         if sequential(count, ELEMENTS_PER_TASK) {
             return self.report(self.tangent_range(u, 0, forces, energies, tangents));
         }
         let failures = forces
-            .par_chunks_mut(3 * N * ELEMENTS_PER_TASK)
+            .par_chunks_mut(Self::DIM * N * ELEMENTS_PER_TASK)
             .zip(energies.par_chunks_mut(ELEMENTS_PER_TASK))
             .zip(tangents.par_chunks_mut(len * ELEMENTS_PER_TASK))
             .enumerate()
@@ -305,10 +325,13 @@ where
             for point in E::mass_rule() {
                 let det_j = determinant(&jacobian::<E, N>(&x, &point.xi));
                 let shape = E::shape(&point.xi);
+                let extent = self
+                    .symmetry
+                    .extent(first_coordinate::<E, N>(&x, &point.xi));
+                let m = self.density * point.weight * det_j * extent;
                 for a in 0..N {
                     for b in 0..N {
-                        mass[N * a + b] +=
-                            self.density * point.weight * det_j * shape[a] * shape[b];
+                        mass[N * a + b] += m * shape[a] * shape[b];
                     }
                 }
             }
@@ -334,10 +357,18 @@ where
 
 /// Writes forces `[i][a]` in the order of the unknowns.
 #[inline(always)]
-fn store<const N: usize>(local: &[[f64; N]; 3], force: &mut [f64]) {
-    for (a, force) in force.chunks_exact_mut(3).enumerate() {
-        (0..3).for_each(|i| force[i] = local[i][a]);
+fn store<const N: usize>(dim: usize, local: &[[f64; N]; 3], force: &mut [f64]) {
+    for (a, force) in force.chunks_exact_mut(dim).enumerate() {
+        (0..dim).for_each(|i| force[i] = local[i][a]);
     }
+}
+
+/// X of a point of an element \[m\]: the radius if axisymmetric.
+fn first_coordinate<E, const N: usize>(x: &[[f64; 3]; N], xi: &[f64; 3]) -> f64
+where
+    E: Element<Nodal = [f64; N]>,
+{
+    x.iter().zip(E::shape(xi)).map(|(x, n)| n * x[0]).sum()
 }
 
 pub(super) fn cell_block(mesh: &Mesh, block_index: usize) -> Result<&CellBlock, FeError> {

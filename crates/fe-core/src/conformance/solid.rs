@@ -5,7 +5,8 @@ use crate::block::ElementState;
 use crate::solid::Solid;
 
 /// Patch test: under the homogeneous displacement gradient `h` \[-\] no node inside the body feels a force, and
-/// blocks of one material have one stress. The mesh needs nodes inside, and should be distorted there.
+/// blocks of one material have one stress. The mesh needs nodes inside, and should be distorted there. Axisymmetric
+/// bodies are in balance only if the radial and hoop stress agree: `h` diagonal, for isotropic matter.
 ///
 /// # Errors
 /// The first [`Violation`] found.
@@ -62,7 +63,7 @@ fn check_uniform_stress(solid: &Solid, u: &[f64]) -> Result<(), Violation> {
     Ok(())
 }
 
-/// Consistent and lumped mass have the expected total \[kg\], also as inertia of a translation; each node has a
+/// Consistent and lumped mass have the expected total \[kg; kg/m in plane strain\], also as inertia of a translation; each node has a
 /// positive mass.
 ///
 /// # Errors

@@ -2,40 +2,52 @@
 
 use fe_core::block::{tangent_index, tangent_len};
 use fe_core::{
-    BoxMesh, CellKind, FeError, MassMatrix, Mesh, Solid, SymmetricPattern, node_adjacency,
-    solid_block,
+    BoxMesh, CellKind, FeError, MassMatrix, Mesh, Solid, SymmetricPattern, Symmetry,
+    node_adjacency, solid_block,
 };
 use proptest::prelude::*;
 
-use crate::common::{self, blatz_ko, distorted_box, neo_hookean};
+use crate::common::{self, blatz_ko, distorted_box, distorted_rectangle, neo_hookean};
 
 /// Two blocks of different kinds that share no node, and a third body.
 fn mixed() -> Solid {
     let mut mesh = distorted_box([2, 2, 1], CellKind::Hex8, 0.2, true);
     let mut tets = distorted_box([1, 2, 1], CellKind::Tet4, 0.2, true);
     tets.points.iter_mut().for_each(|x| x[0] += 5.0);
-    mesh.append("tets", tets.clone());
+    mesh.append("tets", tets.clone()).unwrap();
     tets.points.iter_mut().for_each(|x| x[0] += 5.0);
-    mesh.append("more", tets);
+    mesh.append("more", tets).unwrap();
+    common::solid(mesh, blatz_ko(), 2.0)
+}
+
+/// The same in the plane, as rings.
+fn mixed_plane() -> Solid {
+    let mut mesh = distorted_rectangle([2, 2], CellKind::Quad4, 0.2, true);
+    let mut triangles = distorted_rectangle([1, 2], CellKind::Tri3, 0.2, true);
+    triangles.points.iter_mut().for_each(|x| x[0] += 5.0);
+    mesh.append("triangles", triangles.clone()).unwrap();
+    triangles.points.iter_mut().for_each(|x| x[0] += 5.0);
+    mesh.append("more", triangles).unwrap();
+    mesh.symmetry = Symmetry::Axisymmetric;
     common::solid(mesh, blatz_ko(), 2.0)
 }
 
 /// `K` as a full matrix, element by element.
 fn dense_tangent(solid: &Solid, u: &[f64]) -> Vec<Vec<f64>> {
-    let n = solid.dof_count();
+    let (n, dim) = (solid.dof_count(), solid.dim());
     let mut dense = vec![vec![0.0; n]; n];
     for block in solid.blocks() {
         let (count, nodes) = (block.element_count(), block.nodes_per_element());
-        let entries = tangent_len(3, nodes);
-        let (mut f, mut w) = (vec![0.0; 3 * nodes * count], vec![0.0; count]);
+        let entries = tangent_len(dim, nodes);
+        let (mut f, mut w) = (vec![0.0; dim * nodes * count], vec![0.0; count]);
         let mut k = vec![0.0; entries * count];
         block.tangent(u, &mut f, &mut w, &mut k).unwrap();
         for (element, cell) in block.connectivity().chunks(nodes).enumerate() {
-            for p in 0..3 * nodes {
-                for q in 0..3 * nodes {
-                    let (a, i, b, j) = (p / 3, p % 3, q / 3, q % 3);
-                    let place = tangent_index(3, nodes, (a, i), (b, j));
-                    dense[3 * cell[a] as usize + i][3 * cell[b] as usize + j] +=
+            for p in 0..dim * nodes {
+                for q in 0..dim * nodes {
+                    let (a, i, b, j) = (p / dim, p % dim, q / dim, q % dim);
+                    let place = tangent_index(dim, nodes, (a, i), (b, j));
+                    dense[dim * cell[a] as usize + i][dim * cell[b] as usize + j] +=
                         k[element * entries + place];
                 }
             }
@@ -46,12 +58,13 @@ fn dense_tangent(solid: &Solid, u: &[f64]) -> Vec<Vec<f64>> {
 
 /// `M` as a full matrix.
 fn dense_mass(mass: &MassMatrix) -> Vec<Vec<f64>> {
-    let n = 3 * mass.node_count();
+    let dim = mass.dim();
+    let n = dim * mass.node_count();
     let mut dense = vec![vec![0.0; n]; n];
     for a in 0..mass.node_count() {
         for z in mass.offsets()[a]..mass.offsets()[a + 1] {
-            for i in 0..3 {
-                dense[3 * a + i][3 * mass.columns()[z] as usize + i] += mass.values()[z];
+            for i in 0..dim {
+                dense[dim * a + i][dim * mass.columns()[z] as usize + i] += mass.values()[z];
             }
         }
     }
@@ -97,58 +110,63 @@ proptest! {
         stiffness in 0.1..2.0_f64,
         inertia in 0.1..2.0_f64,
     ) {
-        let solid = mixed();
-        prop_assert_eq!(solid.dof_count(), 126);
-        let (equation, n) = numbering(&keys);
-        let pattern = SymmetricPattern::new(&solid, &equation, n).unwrap();
-        let mut work = solid.workspace();
-        let mut f = vec![0.0; 126];
-        solid.tangent(&u, &mut work, &mut f).unwrap();
-        let k = dense_tangent(&solid, &u);
-        for mass in [solid.consistent_mass(), solid.lumped_mass()] {
-            let m = dense_mass(&mass);
-            let mut values = vec![f64::NAN; pattern.nonzeros()];
-            pattern.gather_tangent(&work, stiffness, &mut values);
-            pattern.add_mass(&mass, inertia, &mut values);
-            let mut expected = vec![vec![0.0; n]; n];
-            for p in 0..126 {
-                for q in 0..126 {
-                    let (row, column) = (equation[p] as usize, equation[q] as usize);
-                    if row < n && column < n && row >= column {
-                        expected[column][row] = stiffness * k[p][q] + inertia * m[p][q];
+        for solid in [mixed(), mixed_plane()] {
+            let dofs = solid.dof_count();
+            let (u, keys) = (&u[..dofs], &keys[..dofs]);
+            let (equation, n) = numbering(keys);
+            let pattern = SymmetricPattern::new(&solid, &equation, n).unwrap();
+            let mut work = solid.workspace();
+            let mut f = vec![0.0; dofs];
+            solid.tangent(u, &mut work, &mut f).unwrap();
+            let k = dense_tangent(&solid, u);
+            for mass in [solid.consistent_mass(), solid.lumped_mass()] {
+                let m = dense_mass(&mass);
+                let mut values = vec![f64::NAN; pattern.nonzeros()];
+                pattern.gather_tangent(&work, stiffness, &mut values);
+                pattern.add_mass(&mass, inertia, &mut values);
+                let mut expected = vec![vec![0.0; n]; n];
+                for p in 0..dofs {
+                    for q in 0..dofs {
+                        let (row, column) = (equation[p] as usize, equation[q] as usize);
+                        if row < n && column < n && row >= column {
+                            expected[column][row] = stiffness * k[p][q] + inertia * m[p][q];
+                        }
                     }
                 }
-            }
-            let scale = largest(&expected);
-            let (pointers, rows) = (pattern.column_pointers(), pattern.row_indices());
-            prop_assert_eq!(pointers.len(), n + 1);
-            for column in 0..n {
-                let range = pointers[column]..pointers[column + 1];
-                prop_assert_eq!(rows[range.start], column);
-                prop_assert!(rows[range.clone()].windows(2).all(|pair| pair[0] < pair[1]));
-                for z in range {
-                    expected[column][rows[z]] -= values[z];
+                let scale = largest(&expected);
+                let (pointers, rows) = (pattern.column_pointers(), pattern.row_indices());
+                prop_assert_eq!(pointers.len(), n + 1);
+                for column in 0..n {
+                    let range = pointers[column]..pointers[column + 1];
+                    prop_assert_eq!(rows[range.start], column);
+                    prop_assert!(rows[range.clone()].windows(2).all(|pair| pair[0] < pair[1]));
+                    for z in range {
+                        expected[column][rows[z]] -= values[z];
+                    }
                 }
+                // What the pattern has not, must be zero.
+                prop_assert!(largest(&expected) < 1e-13 * scale);
             }
-            // What the pattern has not, must be zero.
-            prop_assert!(largest(&expected) < 1e-13 * scale);
         }
     }
 
     #[test]
     fn products_with_tangent_and_mass(u in common::displacement(42, 0.05), x in common::displacement(42, 1.0)) {
-        let solid = mixed();
-        let (mut work, mut y) = (solid.workspace(), vec![0.0; 126]);
-        solid.tangent(&u, &mut work, &mut y).unwrap();
-        let k = dense_tangent(&solid, &u);
-        solid.tangent_times(&work, &x, &mut y);
-        assert_close(&y, &times(&k, &x), 10.0 * largest(&k));
-        for mass in [solid.consistent_mass(), solid.lumped_mass()] {
-            let m = dense_mass(&mass);
-            mass.times(&x, &mut y);
-            assert_close(&y, &times(&m, &x), largest(&m));
-            let quadratic: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
-            prop_assert!((mass.quadratic(&x) - quadratic).abs() < 1e-12 * quadratic);
+        for solid in [mixed(), mixed_plane()] {
+            let dofs = solid.dof_count();
+            let (u, x) = (&u[..dofs], &x[..dofs]);
+            let (mut work, mut y) = (solid.workspace(), vec![0.0; dofs]);
+            solid.tangent(u, &mut work, &mut y).unwrap();
+            let k = dense_tangent(&solid, u);
+            solid.tangent_times(&work, x, &mut y);
+            assert_close(&y, &times(&k, x), 10.0 * largest(&k));
+            for mass in [solid.consistent_mass(), solid.lumped_mass()] {
+                let m = dense_mass(&mass);
+                mass.times(x, &mut y);
+                assert_close(&y, &times(&m, x), largest(&m));
+                let quadratic: f64 = x.iter().zip(&y).map(|(x, y)| x * y).sum();
+                prop_assert!((mass.quadratic(x) - quadratic).abs() < 1e-12 * quadratic);
+            }
         }
     }
 
@@ -203,15 +221,22 @@ fn everything(mesh: &Mesh) -> Vec<Vec<u64>> {
     out
 }
 
+fn check_bits(mesh: &Mesh) {
+    let one = common::pool(1).install(|| everything(mesh));
+    for threads in [2, 8] {
+        let many = common::pool(threads).install(|| everything(mesh));
+        let kind = mesh.blocks[0].kind;
+        assert!(one == many, "{kind:?} with {threads} threads");
+    }
+}
+
 #[test]
 fn same_bits_for_any_number_of_threads() {
     for kind in common::KINDS {
-        let mesh = distorted_box([12, 9, 7], kind, 0.2, true);
-        let one = common::pool(1).install(|| everything(&mesh));
-        for threads in [2, 8] {
-            let many = common::pool(threads).install(|| everything(&mesh));
-            assert!(one == many, "{kind:?} with {threads} threads");
-        }
+        check_bits(&distorted_box([12, 9, 7], kind, 0.2, true));
+    }
+    for kind in common::PLANE_KINDS {
+        check_bits(&distorted_rectangle([25, 40], kind, 0.2, true));
     }
 }
 
@@ -227,8 +252,13 @@ fn bodies_are_connected_components() {
 
 #[test]
 fn adjacency_is_the_graph_of_the_elements() {
-    let solid = mixed();
-    let (offsets, neighbours) = node_adjacency(&solid);
+    for solid in [mixed(), mixed_plane()] {
+        check_adjacency(&solid);
+    }
+}
+
+fn check_adjacency(solid: &Solid) {
+    let (offsets, neighbours) = node_adjacency(solid);
     let mut expected = vec![std::collections::BTreeSet::new(); solid.node_count()];
     for block in solid.blocks() {
         for cell in block.connectivity().chunks(block.nodes_per_element()) {
@@ -295,7 +325,7 @@ fn nodes_without_block_are_an_error() {
     let other = BoxMesh::uniform([3.0; 3], [4.0; 3], [1; 3])
         .generate("other")
         .unwrap();
-    mesh.append("other", other);
+    mesh.append("other", other).unwrap();
     let only = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     assert!(matches!(
         Solid::new(mesh, vec![only]),

@@ -7,8 +7,8 @@ use fe_core::kinematics::{
     deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix, right_cauchy_green,
 };
 use fe_core::{
-    BoxMesh, CellKind, Element, FeError, Hex8, Mesh, Motion, Rotation, Solid, SolidBlock, Table,
-    Tet4, solid_block,
+    BoxMesh, CellKind, Element, FeError, Hex8, Mesh, Motion, Quad4, Rotation, Solid, SolidBlock,
+    Symmetry, Table, Tet4, Tri3, solid_block,
 };
 use hyperelastic::{Material, SaintVenantKirchhoff};
 use proptest::prelude::*;
@@ -19,6 +19,8 @@ use crate::common::{self, KINDS, blatz_ko, distorted_box, neo_hookean};
 fn elements_pass_the_battery() {
     conformance::check_element::<Hex8, 8>().unwrap();
     conformance::check_element::<Tet4, 4>().unwrap();
+    conformance::check_element::<Quad4, 4>().unwrap();
+    conformance::check_element::<Tri3, 3>().unwrap();
 }
 
 #[test]
@@ -224,8 +226,8 @@ impl Block for Wrong {
     fn name(&self) -> &str {
         self.inner.name()
     }
-    fn dim(&self) -> usize {
-        self.inner.dim()
+    fn symmetry(&self) -> Symmetry {
+        self.inner.symmetry()
     }
     fn element_count(&self) -> usize {
         self.inner.element_count()

@@ -1,10 +1,11 @@
 //! Meshes, displacements and solids for the tests.
 
-use fe_core::{BoxMesh, CellKind, Mesh, Solid, solid_block};
+use fe_core::{BoxMesh, CellKind, Mesh, RectangleMesh, Solid, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean};
 use proptest::prelude::*;
 
 pub(crate) const KINDS: [CellKind; 2] = [CellKind::Hex8, CellKind::Tet4];
+pub(crate) const PLANE_KINDS: [CellKind; 2] = [CellKind::Quad4, CellKind::Tri3];
 
 pub(crate) fn neo_hookean() -> NeoHookean {
     NeoHookean::new(ElasticConstants::from_shear_lame(1.0, 2.0).unwrap()).unwrap()
@@ -41,6 +42,31 @@ pub(crate) fn distorted_box(
     mesh
 }
 
+/// A rectangle from (0.3, 0) to (1.3, 1.2) in plane strain, its nodes moved by up to `jitter` of the smallest cell;
+/// boundary nodes too if asked.
+pub(crate) fn distorted_rectangle(
+    cells: [usize; 2],
+    kind: CellKind,
+    jitter: f64,
+    boundary: bool,
+) -> Mesh {
+    let (min, max) = ([0.3, 0.0], [1.3, 1.2]);
+    let mut mesh = RectangleMesh::uniform(min, max, cells)
+        .with_kind(kind)
+        .generate("rectangle")
+        .unwrap();
+    let cell = (1.0 / cells[0] as f64).min(1.2 / cells[1] as f64);
+    for (node, x) in mesh.points.iter_mut().enumerate() {
+        let outer = (0..2).any(|i| x[i] == min[i] || x[i] == max[i]);
+        if boundary || !outer {
+            for (i, x) in x[..2].iter_mut().enumerate() {
+                *x += jitter * cell * (1.7 * node as f64 + 2.9 * i as f64).sin();
+            }
+        }
+    }
+    mesh
+}
+
 pub(crate) fn solid<M: Material>(mesh: Mesh, material: M, density: f64) -> Solid {
     let blocks = (0..mesh.blocks.len())
         .map(|index| solid_block(&mesh, index, material.clone(), density).unwrap());
@@ -62,7 +88,8 @@ pub(crate) fn wave(mesh: &Mesh, size: f64) -> Vec<f64> {
             size * x[0] * (x[1] + 0.3),
         ]
     };
-    mesh.points.iter().flat_map(wave).collect()
+    let waves = mesh.points.iter().map(wave);
+    waves.flat_map(|u| u.into_iter().take(mesh.dim)).collect()
 }
 
 pub(crate) fn pool(threads: usize) -> rayon::ThreadPool {

@@ -7,4 +7,6 @@ mod blocks;
 mod common;
 mod loads;
 mod meshes;
+mod plane;
+mod shapes;
 mod surfaces;

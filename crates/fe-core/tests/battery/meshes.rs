@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use fe_core::{BoxMesh, CellKind, Facet, Mesh, MeshError};
+use fe_core::{BoxMesh, CellKind, Facet, Mesh, MeshError, RectangleMesh, Symmetry};
 use proptest::prelude::*;
 
 use crate::common::KINDS;
@@ -103,8 +103,8 @@ fn appended_meshes_keep_their_shape_and_get_prefixed_sets() {
         .generate("b")
         .unwrap();
     let mut both = Mesh::default();
-    both.append("first", a.clone());
-    both.append("second", b.clone());
+    both.append("first", a.clone()).unwrap();
+    both.append("second", b.clone()).unwrap();
     both.validate().unwrap();
     assert_eq!(both.dim, 3);
     assert_eq!(both.blocks[0], a.blocks[0]);
@@ -138,11 +138,15 @@ fn defects_are_found_and_named() {
     };
     assert!(matches!(
         defect(&|m| m.dim = 1),
-        MeshError::Dimension { dim: 1 }
+        MeshError::Dimension { dim: 1, .. }
     ));
     assert!(matches!(
-        defect(&|m| m.dim = 2),
+        defect(&|m| (m.dim, m.symmetry) = (2, Symmetry::PlaneStrain)),
         MeshError::CellDimension { .. }
+    ));
+    assert!(matches!(
+        defect(&|m| m.symmetry = Symmetry::Axisymmetric),
+        MeshError::Dimension { dim: 3, .. }
     ));
     assert!(matches!(
         defect(&|m| m.blocks.clear()),
@@ -240,4 +244,65 @@ fn impossible_boxes_are_refused_with_the_bound() {
         },
         "2^32",
     );
+}
+
+#[test]
+fn defects_of_plane_meshes_are_found() {
+    let good = RectangleMesh::uniform([0.0; 2], [1.0; 2], [2, 1])
+        .generate("plate")
+        .unwrap();
+    let defect = |change: &dyn Fn(&mut Mesh)| {
+        let mut mesh = good.clone();
+        change(&mut mesh);
+        mesh.validate().unwrap_err()
+    };
+    assert!(matches!(
+        defect(&|m| m.dim = 3),
+        MeshError::Dimension { dim: 3, .. }
+    ));
+    let clockwise = defect(&|m| m.blocks[0].cells[4..].reverse());
+    assert!(matches!(clockwise, MeshError::Jacobian { element: 1, .. }));
+    let facet = defect(&|m| m.facet_sets.get_mut("x_min").unwrap()[0] = Facet::triangle([0, 1, 2]));
+    assert!(matches!(facet, MeshError::FacetSet { facet: 0, .. }));
+    let mut moved = good.clone();
+    moved.points.iter_mut().for_each(|x| x[0] -= 0.1);
+    moved.validate().unwrap();
+    moved.symmetry = Symmetry::Axisymmetric;
+    assert!(matches!(
+        moved.validate(),
+        Err(MeshError::NegativeRadius { node: 0, .. })
+    ));
+    // The third coordinate means nothing in the plane.
+    let mut lifted = good;
+    lifted
+        .points
+        .iter_mut()
+        .for_each(|x| x[2] = x[0] * 7.0 - x[1]);
+    lifted.validate().unwrap();
+}
+
+#[test]
+fn meshes_of_different_symmetry_do_not_mix() {
+    let cube = BoxMesh::uniform([0.0; 3], [1.0; 3], [1; 3])
+        .generate("a")
+        .unwrap();
+    let plate = RectangleMesh::uniform([2.0; 2], [3.0; 2], [1; 2])
+        .generate("b")
+        .unwrap();
+    let ring = Mesh {
+        symmetry: Symmetry::Axisymmetric,
+        ..plate.clone()
+    };
+    for (mut first, second) in [(cube, plate.clone()), (plate.clone(), ring.clone())] {
+        let before = first.clone();
+        let error = first.append("more", second).unwrap_err();
+        assert!(matches!(error, MeshError::Symmetry { .. }), "{error}");
+        assert_eq!(first, before);
+    }
+    let mut both = Mesh::default();
+    both.append("one", ring.clone()).unwrap();
+    both.append("two", ring).unwrap();
+    assert_eq!((both.dim, both.symmetry), (2, Symmetry::Axisymmetric));
+    assert_eq!(both.facet_set("two.x_min").unwrap()[0].nodes(), [6, 4]);
+    both.validate().unwrap();
 }

@@ -1,7 +1,7 @@
 //! Areas, normals and neighbours of surfaces.
 
 use fe_core::surface::current_positions;
-use fe_core::{BoxMesh, CellKind, Facet, Mesh, Motion, Rotation, Surface, Table};
+use fe_core::{BoxMesh, CellKind, Facet, Mesh, Motion, Rotation, Surface, Symmetry, Table};
 use proptest::prelude::*;
 
 use crate::common::KINDS;
@@ -26,7 +26,7 @@ fn areas_integrate_linear_fields() {
         let mesh = unit_box(kind, [4, 3, 2]);
         let top = Surface::new(mesh.facet_sets["z_max"].clone()).unwrap();
         assert_eq!(top.nodes, mesh.node_sets["z_max"]);
-        let areas = top.tributary_areas(&mesh.points);
+        let areas = top.tributary_areas(&mesh);
         let moment = |i: usize| -> f64 {
             let x = top.nodes.iter().map(|&n| mesh.points[n as usize][i]);
             x.zip(&areas).map(|(x, a)| x * a).sum()
@@ -109,10 +109,23 @@ fn facets_around_nodes_are_those_that_have_them() {
 #[test]
 fn plane_surfaces_are_edges() {
     // Lower side of a body above it: from left to right, the body to the left of the way.
-    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]];
+    let mut mesh = Mesh {
+        dim: 2,
+        symmetry: Symmetry::PlaneStrain,
+        points: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]],
+        ..Mesh::default()
+    };
     let surface = Surface::new(vec![Facet::edge([0, 1]), Facet::edge([1, 2])]).unwrap();
     assert_eq!(surface.dim(), 2);
-    assert_eq!(surface.tributary_areas(&points), [0.5, 1.5, 1.0]);
+    assert_eq!(surface.tributary_areas(&mesh), [0.5, 1.5, 1.0]);
+    // Rings: the integral of shape function times circumference.
+    mesh.symmetry = Symmetry::Axisymmetric;
+    let rings = [1.0, 1.0 * 2.0 + 5.0 * 2.0, 7.0 * 2.0].map(|x| x * std::f64::consts::PI / 3.0);
+    let areas = surface.tributary_areas(&mesh);
+    for (found, expected) in areas.iter().zip(rings) {
+        assert!((found - expected).abs() < 1e-14, "{areas:?}");
+    }
+    assert!((areas.iter().sum::<f64>() - 9.0 * std::f64::consts::PI).abs() < 1e-13);
     let normals = surface.vertex_normals(&[0.0, 0.0, 1.0, 0.0, 3.0, 0.0]);
     assert!(normals.iter().all(|n| *n == [0.0, -1.0, 0.0]));
 }

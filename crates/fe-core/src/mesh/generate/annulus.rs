@@ -1,0 +1,100 @@
+//! Rings.
+
+use super::{
+    graded, name_side, require, require_cells, require_finite, require_indices, require_positive,
+    single_block,
+};
+use crate::error::MeshError;
+use crate::mesh::{CellKind, Mesh, Symmetry};
+
+/// A plane ring of quadrilaterals.
+///
+/// Nodes are numbered counter-clockwise from the x axis, from the inner rim outwards. Sides are `inner` and `outer`, their
+/// nodes equally spaced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AnnulusMesh {
+    /// Centre \[m\].
+    pub center: [f64; 2],
+    /// Radius of the inner rim \[m\].
+    pub inner: f64,
+    /// Radius of the outer rim \[m\].
+    pub outer: f64,
+    /// Cells around the whole ring (at least 3), and through its thickness.
+    pub cells: [usize; 2],
+    /// Thickness of the outermost cell over that of the innermost \[-\]; 1 is uniform.
+    pub grading: f64,
+}
+
+impl AnnulusMesh {
+    /// Builds the mesh; its only block gets the name `block`.
+    ///
+    /// # Errors
+    /// [`MeshError::Shape`] for radii that are not positive or not in order, fewer than 3 cells around or 1 through,
+    /// a grading that is not positive, or more nodes than 32-bit indices can address.
+    pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
+        self.check()?;
+        let [around, through] = self.cells;
+        let radii = graded(self.inner, self.outer, through, self.grading);
+        let rim = |&radius: &f64| {
+            (0..around).map(move |k| {
+                let d = direction(k, around);
+                [
+                    self.center[0] + radius * d[0],
+                    self.center[1] + radius * d[1],
+                    0.0,
+                ]
+            })
+        };
+        let points = radii.iter().flat_map(rim).collect();
+        let node = |k: usize, layer: usize| (k % around + around * layer) as u32;
+        let quad = |k, l| {
+            [
+                node(k, l),
+                node(k, l + 1),
+                node(k + 1, l + 1),
+                node(k + 1, l),
+            ]
+        };
+        let cells = (0..through)
+            .flat_map(|l| (0..around).flat_map(move |k| quad(k, l)))
+            .collect();
+        let mut mesh = single_block(Symmetry::PlaneStrain, points, block, CellKind::Quad4, cells);
+        let boundary = mesh.boundary_facets();
+        name_side(&mut mesh, &boundary, "inner", |n| n < around);
+        name_side(&mut mesh, &boundary, "outer", |n| n >= around * through);
+        Ok(mesh)
+    }
+
+    fn check(&self) -> Result<(), MeshError> {
+        let shape = "annulus";
+        let [around, through] = self.cells;
+        require_finite(shape, &self.center)?;
+        require_positive(shape, "inner radius [m]", self.inner)?;
+        require_positive(shape, "outer radius [m]", self.outer)?;
+        let thickness = self.outer - self.inner;
+        require_positive(shape, "outer less inner radius [m]", thickness)?;
+        let count = around as f64;
+        require(
+            around >= 3,
+            shape,
+            "cells around",
+            count,
+            "must be at least 3",
+        )?;
+        require_cells(shape, "cells through", through)?;
+        require_positive(shape, "grading", self.grading)?;
+        require_indices(shape, count * (through as f64 + 1.0))
+    }
+}
+
+/// Unit vector at `k/n` of a full turn; exact at quarters.
+fn direction(k: usize, n: usize) -> [f64; 2] {
+    let (quarter, rest) = (4 * k / n, 4 * k % n);
+    let (s, c) = (rest as f64 / n as f64 * std::f64::consts::FRAC_PI_2).sin_cos();
+    match quarter {
+        0 => [c, s],
+        1 => [-s, c],
+        2 => [-c, -s],
+        _ => [s, -c],
+    }
+}

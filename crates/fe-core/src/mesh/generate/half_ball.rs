@@ -1,0 +1,49 @@
+//! Half balls.
+
+use super::disc::name_plane;
+use super::o_grid::OGrid;
+use super::{BoxMesh, Pole, require_cells, require_indices};
+use crate::error::MeshError;
+use crate::mesh::Mesh;
+
+/// The upper or lower half of a ball, of hexahedra around half a cube.
+///
+/// Sides are `dome`, with a node at the pole, and `base`, the disc.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfBallMesh {
+    /// Centre \[m\], on the base.
+    pub center: [f64; 3],
+    /// Radius \[m\].
+    pub radius: f64,
+    /// Cells per quarter of a great circle; an odd number is raised to the next even one.
+    pub cells: usize,
+    /// Where the dome points: +z or -z.
+    pub pole: Pole,
+}
+
+impl HalfBallMesh {
+    /// Builds the mesh; its only block gets the name `block`.
+    ///
+    /// # Errors
+    /// [`MeshError::Shape`] unless the radius is positive and finite, the centre finite, and there are cells, not more
+    /// than 32-bit indices can address.
+    pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
+        let shape = "half ball";
+        require_cells(shape, "cells", self.cells)?;
+        require_indices(shape, (self.cells as f64).powi(3))?;
+        let n = self.cells.div_ceil(2);
+        let core = BoxMesh::uniform([-1.0, -1.0, 0.0], [1.0; 3], [2 * n, 2 * n, n]);
+        let grid = OGrid {
+            shape,
+            center: self.center,
+            radius: self.radius,
+            pole: self.pole,
+            quarter: 2 * n,
+            rim: "dome",
+            core: core.generate(block)?,
+        };
+        let mut mesh = grid.generate(block)?;
+        name_plane(&mut mesh, "base", 2, self.center[2]);
+        Ok(mesh)
+    }
+}

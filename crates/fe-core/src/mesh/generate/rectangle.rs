@@ -1,0 +1,88 @@
+//! Rectangles.
+
+use super::{check_grid, check_kind, graded, name_side, single_block, triangles};
+use crate::error::MeshError;
+use crate::mesh::{CellKind, Mesh, Symmetry};
+
+/// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
+///
+/// Nodes are numbered with x fastest. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RectangleMesh {
+    /// Lowest corner \[m\].
+    pub min: [f64; 2],
+    /// Highest corner \[m\].
+    pub max: [f64; 2],
+    /// Cells per axis.
+    pub cells: [usize; 2],
+    /// Size of the last cell over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
+    pub grading: [f64; 2],
+    /// [`CellKind::Quad4`] or [`CellKind::Tri3`].
+    pub kind: CellKind,
+}
+
+impl RectangleMesh {
+    /// A rectangle of equal quadrilaterals.
+    pub fn uniform(min: [f64; 2], max: [f64; 2], cells: [usize; 2]) -> RectangleMesh {
+        RectangleMesh {
+            min,
+            max,
+            cells,
+            grading: [1.0; 2],
+            kind: CellKind::Quad4,
+        }
+    }
+
+    /// The same rectangle with another kind of cells.
+    pub fn with_kind(self, kind: CellKind) -> RectangleMesh {
+        RectangleMesh { kind, ..self }
+    }
+
+    /// Builds the mesh; its only block gets the name `block`.
+    ///
+    /// # Errors
+    /// [`MeshError::Shape`] for a rectangle without extent, without cells, with a grading that is not positive, or
+    /// with more nodes than 32-bit indices can address; [`MeshError::CellDimension`] for solid cells.
+    pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
+        check_kind(block, self.kind, 2)?;
+        check_grid(
+            "rectangle",
+            &self.min,
+            &self.max,
+            &self.cells,
+            &self.grading,
+        )?;
+        let [xs, ys] =
+            [0, 1].map(|i| graded(self.min[i], self.max[i], self.cells[i], self.grading[i]));
+        let row = |&y: &f64| xs.iter().map(move |&x| [x, y, 0.0]);
+        let points: Vec<[f64; 3]> = ys.iter().flat_map(row).collect();
+        let mut cells = self.quads();
+        if self.kind == CellKind::Tri3 {
+            cells = triangles(&points, &cells);
+        }
+        let mut mesh = single_block(Symmetry::PlaneStrain, points, block, self.kind, cells);
+        let boundary = mesh.boundary_facets();
+        let [nx, ny] = self.cells;
+        name_side(&mut mesh, &boundary, "x_min", |n| n % (nx + 1) == 0);
+        name_side(&mut mesh, &boundary, "x_max", |n| n % (nx + 1) == nx);
+        name_side(&mut mesh, &boundary, "y_min", |n| n / (nx + 1) == 0);
+        name_side(&mut mesh, &boundary, "y_max", |n| n / (nx + 1) == ny);
+        Ok(mesh)
+    }
+
+    fn quads(&self) -> Vec<u32> {
+        let [nx, ny] = self.cells;
+        let node = |i: usize, j: usize| (i + (nx + 1) * j) as u32;
+        let quad = |i, j| {
+            [
+                node(i, j),
+                node(i + 1, j),
+                node(i + 1, j + 1),
+                node(i, j + 1),
+            ]
+        };
+        (0..ny)
+            .flat_map(|j| (0..nx).flat_map(move |i| quad(i, j)))
+            .collect()
+    }
+}
