@@ -129,7 +129,7 @@ fn check(mesh: &Mesh, sides: &[&str]) {
     let bound = if mesh.blocks[0].kind == CellKind::Tri3 {
         0.2
     } else {
-        0.4
+        0.6
     };
     assert!(worst_corner(mesh) > bound, "{}", worst_corner(mesh));
     assert_eq!(mesh.node_sets["all"].len(), mesh.points.len());
