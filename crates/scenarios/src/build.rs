@@ -1,10 +1,12 @@
 //! From a checked scene to a model: the place where concrete laws and shapes get their names.
 
+mod mesh;
+
 use contact_bipotential::rcc::{Healing, Reference, Update};
 use contact_bipotential::{Adhesion, Interface, Master, Obstacle, Shape};
 use fe_core::{
-    Block, BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation,
-    Solid, Surface, Table, solid_block,
+    Block, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface,
+    Table, solid_block,
 };
 use nscd::{ContactLevel, Inertia, Load, Model, Rayleigh, Scheme, Settings, Span};
 
@@ -32,7 +34,7 @@ pub struct Built {
 /// inverted, an interface that makes no sense.
 pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
     let scene = &loaded.scene;
-    let (mesh, first_node) = mesh(loaded)?;
+    let (mesh, first_node) = mesh::mesh(loaded)?;
     let blocks = blocks(loaded, &mesh)?;
     let body_of_block = (0..mesh.blocks.len() as i32).collect();
     let solid = Solid::new(mesh, blocks).map_err(|e| loaded.refuse("bodies", e.to_string()))?;
@@ -72,45 +74,6 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
         probes,
         body_of_block,
     })
-}
-
-/// The meshes of all bodies in one, and where the nodes of each body begin.
-fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
-    let scene = &loaded.scene;
-    let mut all = Mesh::default();
-    let mut first_node = vec![0];
-    for (name, body) in &scene.bodies {
-        let spec::Mesh::Box {
-            min,
-            max,
-            cells,
-            grading,
-            element,
-        } = &body.mesh
-        else {
-            let message = "only Box can be built";
-            return Err(loaded.refuse(&format!("bodies.{name}.mesh"), message));
-        };
-        let kind = match element {
-            spec::Element::Hex8 => CellKind::Hex8,
-            spec::Element::Tet4 => CellKind::Tet4,
-        };
-        let cells = cells.map(|c| c * scene.refine);
-        let part = BoxMesh {
-            min: *min,
-            max: *max,
-            cells,
-            grading: *grading,
-            kind,
-        };
-        let part = part
-            .generate(name)
-            .map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
-        all.append(name, part)
-            .map_err(|e| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string()))?;
-        first_node.push(all.points.len());
-    }
-    Ok((all, first_node))
 }
 
 fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, SceneError> {

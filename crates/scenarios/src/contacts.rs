@@ -1,6 +1,6 @@
 //! What contacts and bonds do at the nodes.
 
-use nscd::{ContactState, Model, State};
+use nscd::{ContactState, ContactStatus, Model, State};
 
 use crate::output::Bonds;
 
@@ -66,9 +66,12 @@ impl NodeContact {
     fn add(&mut self, contact: &ContactState) {
         self.gap = self.gap.min(contact.gap);
         let bond = contact.bond.map_or([0.0; 3], |bond| bond.force);
-        let dry: [f64; 3] = std::array::from_fn(|i| contact.force[i] - bond[i]);
-        self.normal += dry[2];
-        self.tangential += dry[0].hypot(dry[1]);
+        // The difference of an open contact is round-off.
+        if contact.status != ContactStatus::Open {
+            let dry: [f64; 3] = std::array::from_fn(|i| contact.force[i] - bond[i]);
+            self.normal += dry[2];
+            self.tangential += dry[0].hypot(dry[1]);
+        }
         self.bond_normal -= bond[2];
         self.bond_tangential += bond[0].hypot(bond[1]);
         for (component, axis) in bond.iter().zip(&contact.frame) {

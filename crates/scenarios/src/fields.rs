@@ -62,6 +62,8 @@ impl Fields {
     pub fn frame<'a>(&'a self, built: &'a Built, state: &State) -> Frame<'a> {
         let mesh = built.model.solid.mesh();
         let shape = |kind| match kind {
+            CellKind::Tri3 => CellShape::Tri3,
+            CellKind::Quad4 => CellShape::Quad4,
             CellKind::Tet4 => CellShape::Tet4,
             _ => CellShape::Hex8,
         };

@@ -212,13 +212,13 @@ impl Mesh {
                 (nodes, cells * element.per_quadrilateral())
             }
             Mesh::HalfDisc { cells, .. } => {
-                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
+                let h = (0.5 * fine(*cells)).ceil();
                 let core = (2.0 * h + 1.0) * (h + 1.0);
-                round(2.0 * h * h, core, 4.0 * h, 4.0 * h + 1.0, n)
+                round(2.0 * h * h, core, 4.0 * h, 4.0 * h + 1.0, 2.0 * h)
             }
             Mesh::QuarterDisc { cells, .. } => {
-                let (n, h) = (fine(*cells), (0.5 * fine(*cells)).ceil());
-                round(h * h, (h + 1.0).powi(2), 2.0 * h, 2.0 * h + 1.0, n)
+                let h = (0.5 * fine(*cells)).ceil();
+                round(h * h, (h + 1.0).powi(2), 2.0 * h, 2.0 * h + 1.0, 2.0 * h)
             }
             Mesh::HalfBall { cells, .. } => {
                 let h = (0.5 * fine(*cells)).ceil();

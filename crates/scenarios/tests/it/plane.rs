@@ -1,7 +1,11 @@
 //! Plane scenes: schema, what is refused, and their pictures.
 
-use scenarios::output::{Array, CellShape, Cells, Frame, Values, deformed_svg};
-use scenarios::spec::{LoadedScene, Mesh, SceneError, Symmetry, parse};
+use scenarios::build::build;
+use scenarios::output::{Array, CellShape, Cells, Frame, History, Status, Values, deformed_svg};
+use scenarios::spec::{LoadedScene, SceneError, Symmetry, parse};
+
+use crate::fresh_folder;
+use crate::vtu_reader::Vtu;
 
 /// A disc that rolls between a rectangle and a rigid plane.
 const PLANE: &str = r#"(
@@ -55,61 +59,150 @@ fn a_plane_scene_has_two_unknowns_a_node() {
 }
 
 #[test]
-fn every_plane_mesh_can_be_said() {
+fn every_mesh_is_built_with_its_counts_and_sets() {
     let meshes = [
-        (
-            "Rectangle(min: (0, 0), max: (1, 1), cells: (1, 1), grading: (2, 1), element: Tri3)",
-            "x_max",
-        ),
-        (
-            "Disc(center: (1, 0), radius: 1, cells: 2, element: Tri3)",
-            "rim",
-        ),
-        (
-            "HalfDisc(center: (1, 0), radius: 1, cells: 2, pole: Down)",
-            "dome",
-        ),
-        (
-            "QuarterDisc(center: (0, 0), radius: 1, cells: 2, pole: Up)",
-            "axis",
-        ),
-        (
-            "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, 2))",
-            "outer",
-        ),
+        "Rectangle(min: (0, 0), max: (1, 1), cells: (N, 2), grading: (2, 1), element: Tri3)",
+        "Rectangle(min: (0, 0), max: (1, 1), cells: (1, N))",
+        "Disc(center: (1, 0), radius: 1, cells: N, element: Tri3)",
+        "Disc(center: (1, 0), radius: 1, cells: N)",
+        "HalfDisc(center: (1, 0), radius: 1, cells: N, pole: Down)",
+        "QuarterDisc(center: (0, 0), radius: 1, cells: N, pole: Up)",
+        "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, N))",
+        "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up)",
+        "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet4)",
     ];
-    for (mesh, set) in meshes {
-        for symmetry in ["PlaneStrain", "Axisymmetric"] {
-            let text = format!(
-                r#"(title: "x", symmetry: {symmetry},
-                materials: {{ "m": (law: BlatzKo(G: 1), density: 1) }},
-                bodies: {{ "a": (mesh: {mesh}, material: "m") }},
-                motions: {{ "hold": (nodes: "a.{set}") }},
-                loads: {{ "pull": Traction(facets: "a.{set}", traction: (1, 0, 0)) }},
-                time: (end: 1, dt: 1))"#
-            );
-            let loaded = parse("x.ron", &text, &[]).unwrap_or_else(|e| panic!("{mesh}: {e}"));
-            let wanted = if symmetry == "PlaneStrain" {
-                Symmetry::PlaneStrain
-            } else {
-                Symmetry::Axisymmetric
-            };
-            assert_eq!(loaded.scene.symmetry, Some(wanted));
-            assert!(loaded.scene.is_plane());
+    for mesh in meshes {
+        let solid = mesh.starts_with("Box") || mesh.starts_with("HalfBall");
+        let symmetries = if solid {
+            &["None"][..]
+        } else {
+            &["PlaneStrain", "Axisymmetric", "None"]
+        };
+        for (cells, refine) in [(1, 1), (2, 1), (3, 1), (4, 1), (3, 2), (7, 1)] {
+            for symmetry in symmetries {
+                let mesh = mesh.replace('N', &cells.to_string());
+                let loaded = one_body(&mesh, &format!("symmetry: {symmetry}, refine: {refine},"));
+                counts_and_sets(&loaded, &mesh);
+            }
         }
     }
 }
 
-#[test]
-fn half_a_ball_is_solid() {
-    let ball = Mesh::HalfBall {
-        center: [0.0; 3],
-        radius: 1.0,
-        cells: 2,
-        pole: scenarios::spec::Pole::Up,
+fn one_body(mesh: &str, more: &str) -> LoadedScene {
+    let text = format!(
+        r#"(title: "x", {more} materials: {{ "m": (law: BlatzKo(G: 1), density: 1) }},
+        bodies: {{ "a": (mesh: {mesh}, material: "m") }}, time: (end: 1, dt: 1))"#
+    );
+    parse("x.ron", &text, &[]).unwrap_or_else(|e| panic!("{text}: {e}"))
+}
+
+fn counts_and_sets(loaded: &LoadedScene, shown: &str) {
+    let scene = &loaded.scene;
+    let mesh = &scene.bodies["a"].mesh;
+    let built = build(loaded).unwrap_or_else(|e| panic!("{shown}: {e}"));
+    let solid = &built.model.solid;
+    assert_eq!(scene.size().nodes, solid.node_count(), "{shown}");
+    assert_eq!(scene.size().elements, solid.element_count(), "{shown}");
+    assert_eq!(scene.size().dofs, solid.dof_count(), "{shown}");
+    let names = |sets: &[&str]| {
+        let mut names: Vec<String> = sets.iter().map(|set| format!("a.{set}")).collect();
+        names.sort();
+        names
     };
-    assert!(!ball.is_plane());
-    assert_eq!(ball.size(2).dofs, 3 * ball.size(2).nodes);
+    let built = solid.mesh();
+    assert_eq!(
+        names(mesh.node_sets()),
+        built.node_sets.keys().cloned().collect::<Vec<_>>()
+    );
+    assert_eq!(
+        names(mesh.facet_sets()),
+        built.facet_sets.keys().cloned().collect::<Vec<_>>()
+    );
+    let symmetry = match (mesh.is_plane(), scene.symmetry) {
+        (false, _) => fe_core::Symmetry::None,
+        (true, Some(Symmetry::Axisymmetric)) => fe_core::Symmetry::Axisymmetric,
+        (true, _) => fe_core::Symmetry::PlaneStrain,
+    };
+    assert_eq!(built.symmetry, symmetry, "{shown}");
+}
+
+#[test]
+fn a_plane_run_writes_history_fields_and_pictures() {
+    // A free block that falls, then lies on a rigid plane: 1 m wide and high, 1 m thick.
+    let text = r#"(
+        title: "falling square",
+        materials: { "m": (law: NeoHookean(E: 1e5, nu: 0.25), density: 1000) },
+        bodies: { "block": (mesh: Rectangle(min: (0, 0.01), max: (1, 1.01), cells: (3, 3)), material: "m", velocity: (0.5, 0, 0)) },
+        loads: { "weight": Gravity((0, -10, 0)) },
+        interfaces: { "ground": (slave: "block.y_min", master: Plane(point: (0, 0, 0), normal: (0, 1, 0)), mu: 0.5) },
+        time: (end: 1.5, dt: 0.01, theta: 1, xi: 1),
+        output: (
+            fields_every: Steps(50),
+            plots: [Energy, Deformed, Force("ground"), Probe("corner")],
+            probes: { "corner": (body: "block", node: (0, 0, 0), quantities: [displacement, velocity, contact_force, gap, normal_force, tangential_force, von_mises]) },
+        ),
+    )"#;
+    let folder = fresh_folder("falling-square");
+    let loaded = parse("falling.ron", text, &[]).unwrap();
+    let summary = scenarios::run::run(&loaded, &folder, &mut |_| ()).unwrap();
+    assert_eq!(summary.status, Status::Completed, "{:?}", summary.reason);
+    assert_eq!((summary.dofs, summary.elements), (32, 9));
+    // Half of m v^2 with m = 1000 kg.
+    assert!((summary.energy.initial - 125.0).abs() < 1e-9);
+    assert!(
+        summary.energy.unexplained().abs() < 1e-6,
+        "{}",
+        summary.energy.unexplained()
+    );
+    let history = History::read(&folder.join("history.csv")).unwrap();
+    let column = |name: &str| history.column(name).unwrap_or_else(|| panic!("{name}"));
+    for name in [
+        "probe.corner.displacement.z",
+        "probe.corner.contact_force.z",
+        "force.ground.z",
+        "moment.ground.x",
+    ] {
+        assert!(column(name).iter().all(|value| *value == 0.0), "{name}");
+    }
+    // It moves on freely at first, and rests on the plane by its weight in the end.
+    assert!((column("probe.corner.velocity.x")[1] - 0.5).abs() < 1e-12);
+    let last = column("t").len() - 1;
+    // Two periods, 4 sqrt(density / M) each with the modulus M of plane strain.
+    let force = column("force.ground.y");
+    let weight = force[last - 72..].iter().sum::<f64>() / 73.0;
+    assert!((weight - 1e4).abs() < 500.0, "{weight}");
+    assert!(
+        column("force.ground.x")[..last].iter().any(|x| *x < -100.0),
+        "it rubs"
+    );
+    for i in 0..=last {
+        let [normal, friction] =
+            ["normal_force", "tangential_force"].map(|q| column(&format!("probe.corner.{q}"))[i]);
+        assert!(
+            (normal - column("probe.corner.contact_force.y")[i]).abs() <= 1e-9 * (1.0 + normal)
+        );
+        assert!(friction <= 0.5 * normal * (1.0 + 1e-6) + 1e-9);
+    }
+    let vtu = Vtu::read(&std::fs::read(folder.join("fields/step_000150.vtu")).unwrap());
+    assert_eq!(vtu.integers("types"), [9; 9]);
+    assert_eq!(vtu.floats("displacement").len(), 3 * 16);
+    assert!(vtu.floats("displacement").chunks(3).all(|u| u[2] == 0.0));
+    assert_eq!(
+        vtu.floats("displacement")[1].to_bits(),
+        column("probe.corner.displacement.y")[last].to_bits()
+    );
+    assert!(
+        vtu.floats("cauchy_stress").chunks(6).all(|s| s[2] != 0.0),
+        "plane strain has a stress along z"
+    );
+    for name in [
+        "energy.svg",
+        "deformed.svg",
+        "force_ground.svg",
+        "probe_corner_gap.svg",
+    ] {
+        assert!(folder.join(name).is_file(), "{name}");
+    }
 }
 
 #[test]

@@ -1,0 +1,138 @@
+//! Meshes of the bodies of a scene.
+
+use fe_core::{
+    AnnulusMesh, BoxMesh, CellKind, DiscMesh, HalfBallMesh, HalfDiscMesh, Mesh, MeshError, Pole,
+    QuarterDiscMesh, RectangleMesh, Symmetry,
+};
+
+use crate::spec::{self, LoadedScene, SceneError};
+
+/// The meshes of all bodies in one, and where the nodes of each body begin.
+pub(super) fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneError> {
+    let scene = &loaded.scene;
+    let mut all = Mesh::default();
+    let mut first_node = vec![0];
+    for (name, body) in &scene.bodies {
+        let refuse = |e: MeshError| loaded.refuse(&format!("bodies.{name}.mesh"), e.to_string());
+        let mut part = generate(&body.mesh, scene.refine, name).map_err(refuse)?;
+        if part.symmetry != Symmetry::None && scene.symmetry == Some(spec::Symmetry::Axisymmetric) {
+            part.symmetry = Symmetry::Axisymmetric;
+        }
+        all.append(name, part).map_err(refuse)?;
+        first_node.push(all.points.len());
+    }
+    Ok((all, first_node))
+}
+
+fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshError> {
+    let fine = |cells: usize| cells * refine;
+    match *mesh {
+        spec::Mesh::Box {
+            min,
+            max,
+            cells,
+            grading,
+            element,
+        } => BoxMesh {
+            min,
+            max,
+            cells: cells.map(fine),
+            grading,
+            kind: match element {
+                spec::Element::Hex8 => CellKind::Hex8,
+                spec::Element::Tet4 => CellKind::Tet4,
+            },
+        }
+        .generate(name),
+        spec::Mesh::HalfBall {
+            center,
+            radius,
+            cells,
+            pole: side,
+        } => HalfBallMesh {
+            center,
+            radius,
+            cells: fine(cells),
+            pole: pole(side),
+        }
+        .generate(name),
+        spec::Mesh::Rectangle {
+            min,
+            max,
+            cells,
+            grading,
+            element,
+        } => RectangleMesh {
+            min,
+            max,
+            cells: cells.map(fine),
+            grading,
+            kind: plane_kind(element),
+        }
+        .generate(name),
+        spec::Mesh::Disc {
+            center,
+            radius,
+            cells,
+            element,
+        } => DiscMesh {
+            center,
+            radius,
+            cells: fine(cells),
+            kind: plane_kind(element),
+        }
+        .generate(name),
+        spec::Mesh::HalfDisc {
+            center,
+            radius,
+            cells,
+            pole: side,
+        } => HalfDiscMesh {
+            center,
+            radius,
+            cells: fine(cells),
+            pole: pole(side),
+        }
+        .generate(name),
+        spec::Mesh::QuarterDisc {
+            center,
+            radius,
+            cells,
+            pole: side,
+        } => QuarterDiscMesh {
+            center,
+            radius,
+            cells: fine(cells),
+            pole: pole(side),
+        }
+        .generate(name),
+        spec::Mesh::Annulus {
+            center,
+            inner,
+            outer,
+            cells,
+            grading,
+        } => AnnulusMesh {
+            center,
+            inner,
+            outer,
+            cells: cells.map(fine),
+            grading,
+        }
+        .generate(name),
+    }
+}
+
+fn pole(side: spec::Pole) -> Pole {
+    match side {
+        spec::Pole::Up => Pole::Up,
+        spec::Pole::Down => Pole::Down,
+    }
+}
+
+fn plane_kind(element: spec::PlaneElement) -> CellKind {
+    match element {
+        spec::PlaneElement::Quad4 => CellKind::Quad4,
+        spec::PlaneElement::Tri3 => CellKind::Tri3,
+    }
+}
