@@ -35,6 +35,18 @@ pub const SCENES: &[Entry] = &[
         name: "twist",
         text: include_str!("../scenes/twist.ron"),
     },
+    Entry {
+        name: "plate-cylinder",
+        text: include_str!("../scenes/plate-cylinder.ron"),
+    },
+    Entry {
+        name: "wheel",
+        text: include_str!("../scenes/wheel.ron"),
+    },
+    Entry {
+        name: "indentation",
+        text: include_str!("../scenes/indentation.ron"),
+    },
 ];
 
 /// Text of a built-in scene or of a file, with the name that errors use.
