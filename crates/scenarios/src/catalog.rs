@@ -31,6 +31,10 @@ pub const SCENES: &[Entry] = &[
         name: "twist-dry",
         text: include_str!("../scenes/twist-dry.ron"),
     },
+    Entry {
+        name: "twist",
+        text: include_str!("../scenes/twist.ron"),
+    },
 ];
 
 /// Text of a built-in scene or of a file, with the name that errors use.
