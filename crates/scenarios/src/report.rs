@@ -36,9 +36,11 @@ pub fn description(name: &str, scene: &Scene) -> String {
         rows.push((format!("interface {name}"), words));
     }
     for (name, given) in &scene.motions {
+        let mut components = given.components.clone();
+        components.retain(|c| c != 'z' || !scene.is_plane());
         rows.push((
             format!("motion {name}"),
-            format!("`{}`, components {}", given.nodes, given.components),
+            format!("`{}`, components {}", given.nodes, components),
         ));
     }
     let inertia = match scene.time.inertia {

@@ -204,6 +204,8 @@ fn unit(a: [f64; 3]) -> [f64; 3] {
 struct Fit {
     scale: f64,
     center: [f64; 2],
+    /// Height of the middle of the bodies in shown pixels.
+    middle: u32,
 }
 
 impl Fit {
@@ -217,7 +219,12 @@ impl Fit {
                 high[k] = high[k].max(p[k]);
             }
         }
-        let room = [f64::from(px(WIDTH - BAR - 90)), f64::from(px(HEIGHT - 150))];
+        // A plane picture may fill its corners: it stays above the directions.
+        let below = if view.plane { 80 } else { 0 };
+        let room = [
+            f64::from(px(WIDTH - BAR - 90)),
+            f64::from(px(HEIGHT - 150 - below)),
+        ];
         let stretch = (0..2)
             .map(|k| room[k] / (high[k] - low[k]))
             .filter(|s| s.is_finite() && *s > 0.0);
@@ -231,12 +238,13 @@ impl Fit {
                     0.0
                 }
             }),
+            middle: (HEIGHT + 40 - below) / 2,
         }
     }
 
     fn pixel(&self, p: [f64; 3]) -> (i32, i32) {
         let x = f64::from(px(WIDTH - BAR)) / 2.0 + self.scale * (p[0] - self.center[0]);
-        let y = f64::from(px(HEIGHT + 40)) / 2.0 - self.scale * (p[1] - self.center[1]);
+        let y = f64::from(px(self.middle)) - self.scale * (p[1] - self.center[1]);
         (x.round() as i32, y.round() as i32)
     }
 }
