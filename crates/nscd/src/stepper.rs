@@ -1,7 +1,7 @@
 //! One time step: predict, correct until balance and contact law agree, accept.
 
 use contact_bipotential::{ContactMap, Detector};
-use fe_core::{ElementWorkspace, FeError, node_adjacency};
+use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
 use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
@@ -65,12 +65,7 @@ impl<'m> Stepper<'m> {
         Ok(Self {
             bodies,
             fixed,
-            detector: Detector::new(
-                model.interfaces.clone(),
-                &model.positions(&vec![0.0; model.dof_count()]),
-                model.solid.dim(),
-                cone_of(model),
-            )?,
+            detector: detector(model)?,
             memory: ContactMemory::new(model),
             work,
             initial_stiffness,
@@ -404,6 +399,16 @@ impl<'m> Stepper<'m> {
     pub(crate) fn book(&mut self, phase: Phase, start: f64) {
         self.phases[phase as usize] += self.clock.seconds() - start;
     }
+}
+
+fn detector(model: &Model) -> Result<Detector, NscdError> {
+    let reference = model.positions(&vec![0.0; model.dof_count()]);
+    let interfaces = model.interfaces.clone();
+    let detector = Detector::new(interfaces, &reference, model.solid.dim(), cone_of(model))?;
+    Ok(match model.solid.mesh().symmetry {
+        Symmetry::Axisymmetric => detector.axisymmetric(&reference),
+        _ => detector,
+    })
 }
 
 /// Without mass, a body that nothing holds has no equilibrium that a matrix could find: contact
