@@ -213,11 +213,11 @@ pub struct BondPoint {
 /// Energies of a bond over one step \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BondEnergy {
-    /// Change of the free energy.
+    /// Change of the free energy \[J\].
     pub stored: f64,
-    /// Dissipated by breaking, healing and ageing, >= 0.
+    /// Dissipated by breaking, healing and ageing \[J\], >= 0.
     pub dissipated: f64,
-    /// Work that the bond force took over the step.
+    /// Work that the bond force took over the step \[J\].
     pub work: f64,
 }
 
