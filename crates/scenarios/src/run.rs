@@ -271,8 +271,8 @@ fn rejection(r: &nscd::Rejection) -> String {
 /// Share of the energy beyond which the integration error deserves a word.
 const NOTABLE_ERROR: f64 = 0.1;
 
-fn warnings(energy: &EnergySummary) -> Vec<String> {
-    let share = energy.integration_share();
+fn warnings(energy: &EnergySummary, largest: f64) -> Vec<String> {
+    let share = energy.integration_share(largest);
     if share <= NOTABLE_ERROR {
         return Vec::new();
     }
@@ -315,7 +315,7 @@ fn summarise(
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
         rejections: totals.rejections.iter().take(100).map(rejection).collect(),
-        warnings: warnings(&energy),
+        warnings: warnings(&energy, totals.largest_energy),
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

@@ -111,11 +111,11 @@ impl EnergySummary {
         }
     }
 
-    /// Share of the energy in play that the time integration lost or gained \[-\].
-    pub fn integration_share(&self) -> f64 {
-        let scale = self
-            .initial
-            .abs()
+    /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was stored
+    /// during the run \[J\].
+    pub fn integration_share(&self, largest: f64) -> f64 {
+        let scale = largest
+            .max(self.initial.abs())
             .max(self.end.abs())
             .max(self.load_work.abs());
         if scale > 0.0 {
