@@ -438,7 +438,11 @@ impl BondStep {
         };
         let (k, _) = self.mean_strain(x);
         // The integral of (w - k beta) d beta, whose integrand has the sign of d beta on the way.
-        let broken = (b1 - b0) * (self.law.energy - 0.5 * k * (b1 + b0));
+        let broken = if self.law.viscosity > 0.0 {
+            (b1 - b0) * (self.law.energy - 0.5 * k * (b1 + b0))
+        } else {
+            0.0
+        };
         let stretched = [0, 1].map(|i| separation[i] / self.kept.max(f64::MIN_POSITIVE));
         let aged = self.law.strain(&stretched, gap) - self.law.strain(&separation, gap);
         let aged = if self.kept < 1.0 && self.kept > 0.0 {

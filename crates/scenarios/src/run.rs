@@ -309,6 +309,7 @@ fn summarise(
         dofs: solid.dof_count(),
         elements: solid.element_count(),
         contacts_max: counters.contacts_max as usize,
+        bonded_solves: counters.bonded_solves,
         phases: phases
             .map(|((_, name), seconds)| ((*name).to_owned(), seconds))
             .collect(),

@@ -43,6 +43,8 @@ pub struct Summary {
     pub elements: usize,
     /// Most contacts in a step \[-\].
     pub contacts_max: usize,
+    /// Contact problems that held bonds \[-\].
+    pub bonded_solves: u64,
     /// CPU time of all threads \[s\].
     pub cpu_s: f64,
     /// Wall time \[s\].
