@@ -1,8 +1,9 @@
 //! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`,
-//! `cargo xtask precision`.
+//! `cargo xtask precision`, `cargo xtask figures`.
 
 mod ci;
 mod fclib;
+mod figures;
 mod precision;
 mod tidy;
 
@@ -36,6 +37,11 @@ enum Task {
     },
     /// Error against time of all methods: docs/verification/contact_precision.md and its picture
     Precision,
+    /// The figures of [Hu2022]: docs/verification/hu2022.md and what it leads to
+    Figures {
+        /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
+        names: Vec<String>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -44,6 +50,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
         Task::Precision => precision::run(),
+        Task::Figures { names } => figures::run(&names),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
