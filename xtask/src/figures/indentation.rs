@@ -13,7 +13,7 @@ const CASES: [(f64, f64); 3] = [(20.0, 2e9), (20.0, 4e9), (40.0, 2e9)];
 /// Nodes outward from the pole.
 const NODES: usize = 7;
 /// Node A.
-const A: &str = "n3";
+const A: &str = "n5";
 const HALF: f64 = 0.5;
 
 pub(super) fn runs() -> Vec<Planned> {
