@@ -164,14 +164,18 @@ fn starts(
 ) {
     let settings = SolveSettings::default();
     let (mut start, mut sequence) = (vec![0.0; before.q.len()], SequenceSolver::default());
-    assert!(sequence.solve(before, &mut start, &settings).is_converged());
+    assert!(
+        sequence
+            .solve(before, &[], &mut start, &settings)
+            .is_converged()
+    );
     cold(group, BenchmarkId::new(name, "cold"), problem, &settings);
     group.bench_function(BenchmarkId::new(name, "warm"), |t| {
         let solve = |mut r| solve(black_box(problem), &mut r, &settings);
         t.iter_batched(|| start.clone(), solve, BatchSize::SmallInput);
     });
     group.bench_function(BenchmarkId::new(name, "sequence"), |t| {
-        let solve = |mut r| sequence.solve(black_box(problem), &mut r, &settings);
+        let solve = |mut r| sequence.solve(black_box(problem), &[], &mut r, &settings);
         t.iter_batched(|| start.clone(), solve, BatchSize::SmallInput);
     });
 }

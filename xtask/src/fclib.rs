@@ -94,9 +94,9 @@ pub(crate) fn run(folder: Option<PathBuf>) -> Outcome {
 
 /// Writes a file of `docs/verification`.
 pub(crate) fn write_document(name: &str, text: &str) -> Outcome {
-    let target = root().join("docs/verification");
-    let path = target.join(name);
-    std::fs::create_dir_all(&target)
+    let path = root().join("docs/verification").join(name);
+    let folder = path.parent().unwrap_or(&path);
+    std::fs::create_dir_all(folder)
         .and_then(|()| std::fs::write(&path, text))
         .map_err(|e| format!("{}: {e}", path.display()))
 }

@@ -1,8 +1,9 @@
 //! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`,
-//! `cargo xtask precision`.
+//! `cargo xtask precision`, `cargo xtask figures`.
 
 mod ci;
 mod fclib;
+mod figures;
 mod precision;
 mod tidy;
 
@@ -40,6 +41,11 @@ enum Task {
         /// All without it
         studies: Vec<precision::Study>,
     },
+    /// The figures of [Hu2022]: docs/verification/hu2022.md and what it leads to
+    Figures {
+        /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
+        names: Vec<String>,
+    },
 }
 
 fn main() -> ExitCode {
@@ -48,6 +54,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
         Task::Precision { studies } => precision::run(&studies),
+        Task::Figures { names } => figures::run(&names),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

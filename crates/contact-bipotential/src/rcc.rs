@@ -213,11 +213,11 @@ pub struct BondPoint {
 /// Energies of a bond over one step \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BondEnergy {
-    /// Change of the free energy.
+    /// Change of the free energy \[J\].
     pub stored: f64,
-    /// Dissipated by breaking, healing and ageing, >= 0.
+    /// Dissipated by breaking, healing and ageing \[J\], >= 0.
     pub dissipated: f64,
-    /// Work that the bond force took over the step.
+    /// Work that the bond force took over the step \[J\].
     pub work: f64,
 }
 
@@ -438,7 +438,11 @@ impl BondStep {
         };
         let (k, _) = self.mean_strain(x);
         // The integral of (w - k beta) d beta, whose integrand has the sign of d beta on the way.
-        let broken = (b1 - b0) * (self.law.energy - 0.5 * k * (b1 + b0));
+        let broken = if self.law.viscosity > 0.0 {
+            (b1 - b0) * (self.law.energy - 0.5 * k * (b1 + b0))
+        } else {
+            0.0
+        };
         let stretched = [0, 1].map(|i| separation[i] / self.kept.max(f64::MIN_POSITIVE));
         let aged = self.law.strain(&stretched, gap) - self.law.strain(&separation, gap);
         let aged = if self.kept < 1.0 && self.kept > 0.0 {

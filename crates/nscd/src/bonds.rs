@@ -2,8 +2,9 @@
 
 use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, material_axes};
 
-use crate::contact::{ContactMemory, describe, in_frame};
+use crate::contact::{ContactMemory, describe};
 use crate::error::{NscdError, StepFailure};
+use crate::law::in_frame;
 use crate::model::Model;
 use crate::scheme::ContactLevel;
 use crate::state::NodeBond;

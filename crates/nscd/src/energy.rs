@@ -3,7 +3,7 @@
 use contact_bipotential::local::local_axes;
 
 use crate::bonds::{adhesive_energy, carry_on};
-use crate::contact::{in_frame, relative_displacement, relative_velocity};
+use crate::law::{in_frame, relative_displacement, relative_velocity};
 use crate::monitor::Check;
 use crate::report::{EnergyTerms, Resultant, StepReport};
 use crate::scheme::{ContactLevel, Inertia};

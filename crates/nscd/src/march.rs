@@ -29,6 +29,8 @@ pub trait Observer {
 pub struct Totals {
     /// Energy at the start \[J\].
     pub initial_energy: f64,
+    /// Largest sum of kinetic, strain and adhesive energy (without signs) at the end of a step \[J\].
+    pub largest_energy: f64,
     /// Energy terms summed over the steps.
     pub energy: EnergyTerms,
     /// Deepest penetration at the end of a step \[m\].
@@ -42,8 +44,10 @@ pub struct Totals {
 }
 
 impl Totals {
-    fn add(&mut self, report: &StepReport) {
+    fn add(&mut self, report: &StepReport, state: &State) {
         self.energy.add(&report.energy);
+        let energy = state.kinetic_energy + state.strain_energy.abs() + state.adhesive_energy.abs();
+        self.largest_energy = self.largest_energy.max(energy);
         self.max_penetration = self.max_penetration.max(report.penetration);
         self.max_contact_error = self.max_contact_error.max(report.contact_error);
         self.max_residual = self.max_residual.max(report.residual);
@@ -80,7 +84,7 @@ pub fn march(
                 *state = next;
                 control.accepted(state);
                 stepper.counters.steps += 1;
-                totals.add(&report);
+                totals.add(&report, state);
                 observer
                     .accepted(stepper, state, &report, totals)
                     .map_err(|source| NscdError::Observer {

@@ -1,8 +1,9 @@
 //! Has the iteration arrived, and is the tangent still worth keeping?
 
 use crate::body::BodySystem;
-use crate::contact::{LawError, describe};
+use crate::contact::describe;
 use crate::error::StepFailure;
+use crate::law::LawError;
 use crate::model::Model;
 use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};

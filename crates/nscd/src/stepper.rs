@@ -5,9 +5,10 @@ use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
 use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
-use crate::contact::{ContactMemory, LinearisedContact, cone_of, local_variable};
+use crate::contact::{ContactMemory, LinearisedContact, cone_of};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
+use crate::law::local_variable;
 use crate::model::Model;
 use crate::monitor::Monitor;
 use crate::ordering::Graph;

@@ -47,6 +47,14 @@ pub const SCENES: &[Entry] = &[
         name: "indentation",
         text: include_str!("../scenes/indentation.ron"),
     },
+    Entry {
+        name: "indentation-elastic",
+        text: include_str!("../scenes/indentation-elastic.ron"),
+    },
+    Entry {
+        name: "debonding",
+        text: include_str!("../scenes/debonding.ron"),
+    },
 ];
 
 /// Text of a built-in scene or of a file, with the name that errors use.

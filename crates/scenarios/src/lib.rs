@@ -12,6 +12,7 @@ pub mod fields;
 pub mod output;
 pub mod progress;
 pub mod report;
+pub mod row;
 pub mod run;
 pub mod spec;
 pub mod sweep;

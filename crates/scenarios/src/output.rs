@@ -23,7 +23,10 @@ pub use self::csv::HistoryFile;
 pub use folder::{Folder, OutputError};
 pub use frame::{Array, CellShape, Cells, Frame, Values};
 pub use history::{Bonds, ENERGY_COLUMNS, Energies, Force, History, Layout, ProbeColumns, Row};
-pub use plot::{deformed_svg, energy_svg, series_svg};
+pub use plot::{
+    Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, energy_svg, maps_svg,
+    series_svg,
+};
 pub use results::Results;
 pub use summary::{EnergySummary, Status, Summary};
 pub use vtu::{vtu_bytes, write_pvd};

@@ -8,11 +8,11 @@ use thiserror::Error;
 
 use crate::build::{Built, build};
 use crate::clock::Stopwatch;
-use crate::contacts::{self, NodeContact};
 use crate::fields::Fields;
-use crate::output::{Energies, EnergySummary, Force, OutputError, Results, Row, Status, Summary};
+use crate::output::{EnergySummary, OutputError, Results, Status, Summary};
 use crate::progress::Progress;
-use crate::spec::{LoadedScene, Quantity, SceneError};
+use crate::row::{energies, first_row, row};
+use crate::spec::{LoadedScene, SceneError};
 
 /// Why a run could not be made at all. A run that stops before its end is not an error but a [`Summary`] that says
 /// so.
@@ -127,12 +127,7 @@ struct Recorder<'a> {
 
 impl Recorder<'_> {
     fn start(&mut self, state: &State) -> Result<(), OutputError> {
-        let report = StepReport {
-            interfaces: vec![nscd::Resultant::default(); self.built.model.interfaces.len()],
-            supports: vec![nscd::Resultant::default(); self.built.model.supports.len()],
-            ..StepReport::default()
-        };
-        let row = self.row(state, &report, &Totals::default());
+        let row = first_row(&self.loaded.scene, self.built, state);
         self.results.start(&row);
         self.frame(state, 0, false)
     }
@@ -146,59 +141,6 @@ impl Recorder<'_> {
             .frame(step, &fields.frame(self.built, state), last)
     }
 
-    fn row(&self, state: &State, report: &StepReport, totals: &Totals) -> Row {
-        let resultants = report.interfaces.iter().chain(&report.supports);
-        Row {
-            time: state.time,
-            energies: energies(state, totals),
-            contacts: report.contacts_closed,
-            penetration: report.penetration,
-            contact_error: report.contact_error,
-            forces: resultants
-                .map(|r| Force {
-                    force: r.force,
-                    moment: r.moment,
-                })
-                .collect(),
-            bonds: contacts::bonds(&self.built.model, state),
-            probes: self.probes(state),
-        }
-    }
-
-    fn probes(&self, state: &State) -> Vec<f64> {
-        let dim = self.built.model.solid.dim();
-        let stress = |node: u32| Fields::nodal_von_mises(self.built, state, node);
-        let vector = |field: &[f64], node: u32| {
-            let mut v = vec![0.0; 3];
-            v[..dim].copy_from_slice(&field[dim * node as usize..dim * (node as usize + 1)]);
-            v
-        };
-        let probes = self
-            .loaded
-            .scene
-            .output
-            .probes
-            .values()
-            .zip(&self.built.probes);
-        let values = probes.flat_map(|(probe, &node)| {
-            let contact = NodeContact::of(&self.built.model, state, node);
-            probe.quantities.iter().flat_map(move |q| match q {
-                Quantity::Displacement => vector(&state.u, node),
-                Quantity::Velocity => vector(&state.v, node),
-                Quantity::ContactForce => vector(&state.contact_force, node),
-                Quantity::VonMises => vec![stress(node)],
-                Quantity::Gap => vec![contact.gap],
-                Quantity::Beta => vec![contact.beta],
-                Quantity::AdhesionForce => contact.bond_force.to_vec(),
-                Quantity::AdhesionNormal => vec![contact.bond_normal],
-                Quantity::AdhesionTangential => vec![contact.bond_tangential],
-                Quantity::NormalForce => vec![contact.normal],
-                Quantity::TangentialForce => vec![contact.tangential],
-            })
-        });
-        values.collect()
-    }
-
     fn record(
         &mut self,
         stepper: &Stepper<'_>,
@@ -206,7 +148,7 @@ impl Recorder<'_> {
         report: &StepReport,
         totals: &Totals,
     ) -> Result<(), OutputError> {
-        let row = self.row(state, report, totals);
+        let row = row(&self.loaded.scene, self.built, state, report, totals);
         self.results.record(&row)?;
         let step = stepper.counters.steps as usize;
         if self.dump == Some(step)
@@ -249,21 +191,6 @@ impl Observer for Recorder<'_> {
     }
 }
 
-fn energies(state: &State, totals: &Totals) -> Energies {
-    let sums = &totals.energy;
-    Energies {
-        kinetic: state.kinetic_energy,
-        strain: state.strain_energy,
-        adhesive: state.adhesive_energy,
-        load_work: sums.load_work,
-        friction_dissipation: sums.friction,
-        bond_dissipation: sums.bond,
-        damping_dissipation: sums.damping,
-        impact_loss: sums.impact,
-        integration_error: sums.integration_error(),
-    }
-}
-
 fn rejection(r: &nscd::Rejection) -> String {
     format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
 }
@@ -271,8 +198,8 @@ fn rejection(r: &nscd::Rejection) -> String {
 /// Share of the energy beyond which the integration error deserves a word.
 const NOTABLE_ERROR: f64 = 0.1;
 
-fn warnings(energy: &EnergySummary) -> Vec<String> {
-    let share = energy.integration_share();
+fn warnings(energy: &EnergySummary, largest: f64) -> Vec<String> {
+    let share = energy.integration_share(largest);
     if share <= NOTABLE_ERROR {
         return Vec::new();
     }
@@ -282,7 +209,8 @@ fn warnings(energy: &EnergySummary) -> Vec<String> {
     )]
 }
 
-fn summarise(
+/// What a run did and cost; `stopped` says why it did not reach its end.
+pub fn summarise(
     stepper: &Stepper<'_>,
     state: &State,
     totals: &Totals,
@@ -309,13 +237,14 @@ fn summarise(
         dofs: solid.dof_count(),
         elements: solid.element_count(),
         contacts_max: counters.contacts_max as usize,
+        bonded_solves: counters.bonded_solves,
         phases: phases
             .map(|((_, name), seconds)| ((*name).to_owned(), seconds))
             .collect(),
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
         rejections: totals.rejections.iter().take(100).map(rejection).collect(),
-        warnings: warnings(&energy),
+        warnings: warnings(&energy, totals.largest_energy),
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

@@ -169,3 +169,49 @@ fn adhesion_that_cannot_act_costs_nothing() {
     );
     assert_eq!(with.last().state.u, without.last().state.u);
 }
+
+/// Rate-independent bonds on bodies softer than the bonds' softening jump; viscous ones of the same strength do not.
+#[test]
+fn an_interface_that_snaps_is_cut_and_then_stops_with_that_reason() {
+    let soft = [
+        "m.law=SaintVenantKirchhoff(E: 4.0e4, nu: 0.0)",
+        "time.end=1.7",
+        "min_dt=0.001",
+    ];
+    let snapping = Adhesion {
+        viscosity: 0.0,
+        initial: 1.0,
+        ..law()
+    };
+    let loaded = scene_text(PULL, &soft);
+    let mut built = scenarios::build::build(&loaded).unwrap();
+    built.model.interfaces[0].adhesion = Some(snapping);
+    let run = try_run_built(built);
+    let reason = format!("{}", run.end.as_ref().unwrap_err());
+    assert!(reason.contains("snaps at node"), "{reason}");
+    assert!(run.counters.rejected_steps >= 3 && run.last().report.time > 0.7);
+    run.assert_audited(10.0, 1e-9);
+    // The bonds held until the jump: 2 m of E = 4e4 carry s0 = 1000 N when stretched by .05 m.
+    assert!(run.last().state.bonds[0].iter().all(|b| b.intensity > 0.9));
+}
+
+/// The rate-independent limit on a stiff body needs no cutting: peak s0 at x0, work of separation w.
+#[test]
+fn without_viscosity_the_peak_is_the_strength_of_the_bond() {
+    let run = pulled(
+        Adhesion {
+            viscosity: 0.0,
+            ..law()
+        },
+        &["dt=0.0025", "time.end=1.7"],
+    );
+    assert!(run.totals.rejections.is_empty());
+    run.assert_audited(10.0, 1e-9);
+    let strength = (10.0_f64 * 1e5).sqrt();
+    let reached = peak(&curve(&run), 0.7, 1.7);
+    assert!(
+        reached <= strength * (1.0 + 1e-9) && reached > 0.99 * strength,
+        "{reached}"
+    );
+    assert_eq!(run.totals.energy.bond, 0.0);
+}

@@ -43,6 +43,8 @@ pub struct Summary {
     pub elements: usize,
     /// Most contacts in a step \[-\].
     pub contacts_max: usize,
+    /// Contact problems that held bonds \[-\].
+    pub bonded_solves: u64,
     /// CPU time of all threads \[s\].
     pub cpu_s: f64,
     /// Wall time \[s\].
@@ -111,11 +113,11 @@ impl EnergySummary {
         }
     }
 
-    /// Share of the energy in play that the time integration lost or gained \[-\].
-    pub fn integration_share(&self) -> f64 {
-        let scale = self
-            .initial
-            .abs()
+    /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was stored
+    /// during the run \[J\].
+    pub fn integration_share(&self, largest: f64) -> f64 {
+        let scale = largest
+            .max(self.initial.abs())
             .max(self.end.abs())
             .max(self.load_work.abs());
         if scale > 0.0 {

@@ -4,7 +4,7 @@ use super::curve::{Curve, falls_below, mean, peak};
 use super::runs::Sample;
 use super::{Case, Level, Quantity};
 
-pub(super) const ALL: &[Case] = &[INDENTATION, WHEEL, PLATE_CYLINDER, TWIST];
+pub(super) const ALL: &[Case] = &[INDENTATION, WHEEL, PLATE_CYLINDER, SLOW, TWIST];
 
 const fn rung(mesh: &'static str, dt: &'static str, sets: &'static [&'static str]) -> Level {
     Level {
@@ -53,11 +53,13 @@ const INDENTATION: Case = Case {
     scene: "indentation",
     sets: &[],
     levels: &[
-        rung("30 x 10", "0.04", &["cells=(30, 10)"]),
-        rung("60 x 20", "0.02", &[]),
-        rung("120 x 40", "0.01", &["refine=2"]),
-        aside("60 x 20", "0.01", &[]),
-        aside("120 x 40", "0.02", &["refine=2"]),
+        rung("60 x 10", "0.04", &["cells=(60, 10)"]),
+        rung("120 x 20", "0.02", &[]),
+        rung("240 x 40", "0.01", &["refine=2"]),
+        aside("60 x 20", "0.02", &["cells=(60, 20)"]),
+        aside("60 x 20", "0.005", &["cells=(60, 20)"]),
+        aside("120 x 20", "0.01", &[]),
+        aside("240 x 40", "0.02", &["refine=2"]),
     ],
     quantities: &[
         quantity("pull-off force", "N", 1.0, |s| Some(pull_off(s)?.1)),
@@ -79,11 +81,12 @@ const WHEEL: Case = Case {
     scene: "wheel",
     sets: &["end=0.02", "probes.b.node=(0.0023570, -0.0044096, 0.0)"],
     levels: &[
-        rung("16 a quarter", "2e-4", &["mesh.cells=16"]),
-        rung("32 a quarter", "1e-4", &[]),
-        rung("64 a quarter", "5e-5", &["refine=2"]),
-        aside("32 a quarter", "5e-5", &[]),
-        aside("64 a quarter", "1e-4", &["refine=2"]),
+        rung("16 a quarter", "1e-4", &["mesh.cells=16"]),
+        rung("32 a quarter", "5e-5", &[]),
+        rung("64 a quarter", "2.5e-5", &["refine=2"]),
+        aside("32 a quarter", "1e-4", &[]),
+        aside("32 a quarter", "2.5e-5", &[]),
+        aside("64 a quarter", "5e-5", &["refine=2"]),
     ],
     quantities: &[
         quantity("largest pull", "MPa", 1e-6, |s| {
@@ -98,32 +101,50 @@ const WHEEL: Case = Case {
     ],
 };
 
+const QUARTER: &[&str] = &["cylinder.mesh.cells=10", "plate.mesh.cells=(38, 2)"];
+const HALF: &[&str] = &["cylinder.mesh.cells=20", "plate.mesh.cells=(75, 3)"];
+
 const PLATE_CYLINDER: Case = Case {
     title: "plate-cylinder, descent in 1 ms",
     about: "Largest horizontal force, largest intensity at the pole, and the time at which it falls below half of that.",
     scene: "plate-cylinder",
     sets: &[],
     levels: &[
-        rung(
-            "20 a quarter",
-            "4e-5",
-            &["cylinder.mesh.cells=20", "plate.mesh.cells=(75, 3)"],
-        ),
-        rung("40 a quarter", "2e-5", &[]),
-        rung("80 a quarter", "1e-5", &["refine=2"]),
-        aside("40 a quarter", "1e-5", &[]),
-        aside("80 a quarter", "2e-5", &["refine=2"]),
+        rung("10 a quarter", "1.6e-4", QUARTER),
+        rung("20 a quarter", "8e-5", HALF),
+        rung("40 a quarter", "4e-5", &[]),
+        rung("80 a quarter", "2e-5", &["refine=2"]),
+        aside("20 a quarter", "4e-5", HALF),
+        aside("40 a quarter", "2e-5", &[]),
     ],
-    quantities: &[
-        quantity("largest force", "N/m", 1.0, |s| {
-            Some(peak(&curve(s, 0.0, |s| s.force[0][0].abs()))?.1)
-        }),
-        quantity("largest beta", "-", 1.0, |s| Some(pole(s)?.1)),
-        quantity("beta < half", "ms", 1e3, |s| {
-            falls_below(&curve(s, 0.0, |s| s.beta[0]), 0.5 * pole(s)?.1)
-        }),
-    ],
+    quantities: DRAGGED,
 };
+
+const SLOW: Case = Case {
+    title: "plate-cylinder, descent in 5 ms",
+    about: "The same for a slow descent.",
+    sets: &[
+        "drive.motion.translation=([(0.005, 0.0), (0.013, 0.008)], [(0.0, 0.0), (0.005, -0.001)], 0.0)",
+        "end=0.013",
+    ],
+    levels: &[
+        rung("10 a quarter", "1.6e-4", QUARTER),
+        rung("20 a quarter", "8e-5", HALF),
+        rung("40 a quarter", "4e-5", &[]),
+        aside("20 a quarter", "4e-5", HALF),
+    ],
+    ..PLATE_CYLINDER
+};
+
+const DRAGGED: &[Quantity] = &[
+    quantity("largest force", "N/m", 1.0, |s| {
+        Some(peak(&curve(s, 0.0, |s| s.force[0][0].abs()))?.1)
+    }),
+    quantity("largest beta", "-", 1.0, |s| Some(pole(s)?.1)),
+    quantity("beta < half", "ms", 1e3, |s| {
+        falls_below(&curve(s, 0.0, |s| s.beta[0]), 0.5 * pole(s)?.1)
+    }),
+];
 
 fn pole(samples: &[Sample]) -> Option<(f64, f64)> {
     peak(&curve(samples, 0.0, |s| s.beta[0]))

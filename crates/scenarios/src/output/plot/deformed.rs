@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use plotters::prelude::*;
-use plotters::style::text_anchor;
 
+use super::color::{color, draw_bar};
 use super::scale::Scale;
-use super::{FINE, INK, font, ipx, px, shown_size};
+use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, picture, px};
 use crate::output::{CellShape, Frame};
 
 const WIDTH: u32 = 900;
@@ -16,36 +16,16 @@ const BAR: u32 = 130;
 /// Above this many visible faces each is one patch of colour.
 const SMOOTH_FACES: usize = 3000;
 
-/// Perceptually even colours from dark violet to yellow.
-const MAP: [(u8, u8, u8); 10] = [
-    (68, 1, 84),
-    (72, 40, 120),
-    (62, 73, 137),
-    (49, 104, 142),
-    (38, 130, 142),
-    (31, 158, 137),
-    (53, 183, 121),
-    (110, 206, 88),
-    (181, 222, 43),
-    (253, 231, 37),
-];
-
 /// Picture of the deformed surface, coloured by the cell field `von_mises` averaged to the nodes; grey when there
 /// is none. Needs the point field `displacement` to deform anything.
 ///
 /// # Errors
 /// What the drawing library reports.
 pub fn deformed_svg(title: &str, frame: &Frame<'_>) -> Result<String, String> {
-    let mut svg = String::new();
-    draw(&mut svg, title, frame).map_err(|error| error.to_string())?;
-    Ok(shown_size(&svg, WIDTH, HEIGHT))
+    picture([WIDTH, HEIGHT], |root| draw(root, title, frame))
 }
 
-type Drawn = Result<(), Box<dyn std::error::Error>>;
-
-fn draw(svg: &mut String, title: &str, frame: &Frame<'_>) -> Drawn {
-    let root = SVGBackend::with_string(svg, (px(WIDTH), px(HEIGHT))).into_drawing_area();
-    root.fill(&WHITE)?;
+fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
     root.draw(&Text::new(title.to_owned(), (ipx(28), ipx(16)), font(17)))?;
     let time = format!("t = {}", short(frame.time));
     root.draw(&Text::new(
@@ -78,17 +58,14 @@ fn draw(svg: &mut String, title: &str, frame: &Frame<'_>) -> Drawn {
         parts,
     };
     for face in &visible {
-        draw_face(&root, face, &scenery)?;
+        draw_face(root, face, &scenery)?;
     }
     if stress.is_some() {
-        draw_bar(&root, &scale)?;
+        let title = scale.label("von Mises", "Pa");
+        draw_bar(root, &scale, title, [WIDTH - BAR, 130], 400, WIDTH - 24)?;
     }
-    draw_axes(&root, &view)?;
-    root.present()?;
-    Ok(())
+    draw_axes(root, &view)
 }
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
 fn short(value: f64) -> String {
     // Sums of steps carry round-off digits that say nothing.
@@ -335,7 +312,7 @@ fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Draw
             ];
             let mean = patch.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
             let base = if stress.is_some() {
-                colour(scale, mean)
+                color(scale, mean)
             } else {
                 RGBColor(170, 180, 195)
             };
@@ -360,60 +337,9 @@ fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Draw
     Ok(())
 }
 
-fn colour(scale: &Scale, value: f64) -> RGBColor {
-    let s =
-        ((value - scale.low) / (scale.high - scale.low)).clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
-    let i = (s as usize).min(MAP.len() - 2);
-    let w = s - i as f64;
-    let mix = |a: u8, b: u8| (f64::from(a) + w * (f64::from(b) - f64::from(a))).round() as u8;
-    let (a, b) = (MAP[i], MAP[i + 1]);
-    RGBColor(mix(a.0, b.0), mix(a.1, b.1), mix(a.2, b.2))
-}
-
 fn shaded(color: RGBColor, light: f64) -> RGBColor {
     let shade = |c: u8| (f64::from(c) * light).round().clamp(0.0, 255.0) as u8;
     RGBColor(shade(color.0), shade(color.1), shade(color.2))
-}
-
-fn draw_bar(root: &Area<'_>, scale: &Scale) -> Drawn {
-    let (left, width, top, height) = (ipx(WIDTH - BAR), ipx(20), ipx(130), ipx(400));
-    let place = |value: f64| {
-        let s = (value - scale.low) / (scale.high - scale.low);
-        top + height - (s * f64::from(height)).round() as i32
-    };
-    let title = scale.label("von Mises", "Pa");
-    let style = font(12).pos(text_anchor::Pos::new(
-        text_anchor::HPos::Right,
-        text_anchor::VPos::Top,
-    ));
-    root.draw(&Text::new(title, (ipx(WIDTH - 24), top - ipx(30)), style))?;
-    let bands = 100;
-    for i in 0..bands {
-        let value = |i: i32| scale.low + (scale.high - scale.low) * f64::from(i) / f64::from(bands);
-        let color = colour(scale, 0.5 * (value(i) + value(i + 1)));
-        let corners = [
-            (left, place(value(i + 1))),
-            (left + width, place(value(i)) + 1),
-        ];
-        root.draw(&Rectangle::new(corners, color.filled()))?;
-    }
-    root.draw(&Rectangle::new(
-        [(left, top), (left + width, top + height)],
-        INK.stroke_width(FINE / 2),
-    ))?;
-    for tick in scale.ticks() {
-        let y = place(tick);
-        root.draw(&PathElement::new(
-            vec![(left + width, y), (left + width + ipx(5), y)],
-            INK.stroke_width(FINE),
-        ))?;
-        root.draw(&Text::new(
-            scale.tick(tick),
-            (left + width + ipx(10), y - ipx(6)),
-            font(12),
-        ))?;
-    }
-    Ok(())
 }
 
 /// Directions of x, y, z in the lower left corner.
@@ -438,14 +364,10 @@ fn draw_axes(root: &Area<'_>, view: &View) -> Drawn {
             vec![origin, end(34.0)],
             INK.stroke_width(FINE + FINE / 2),
         ))?;
-        let style = font(12).pos(text_anchor::Pos::new(
-            text_anchor::HPos::Center,
-            text_anchor::VPos::Center,
-        ));
         root.draw(&Text::new(
             name.to_owned(),
             end(34.0 + 11.0 / length),
-            style,
+            centred(12),
         ))?;
     }
     Ok(())

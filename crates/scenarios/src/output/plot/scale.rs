@@ -8,6 +8,8 @@ pub(super) struct Scale {
     step: f64,
     /// Power of ten in the label of the axis.
     exponent: i32,
+    /// The values are the exponents of powers of ten.
+    powers: bool,
 }
 
 impl Scale {
@@ -49,6 +51,20 @@ impl Scale {
             high,
             step,
             exponent,
+            powers: false,
+        }
+    }
+
+    /// Around the powers of ten of all positive values; everything here is in exponents.
+    pub(super) fn powers(exponents: impl Iterator<Item = f64>) -> Scale {
+        let mut around = Scale::around(exponents, 8, true);
+        around.step = around.step.ceil();
+        around.low = (around.low / around.step).floor() * around.step;
+        around.high = (around.high / around.step).ceil() * around.step;
+        Scale {
+            exponent: 0,
+            powers: true,
+            ..around
         }
     }
 
@@ -65,6 +81,9 @@ impl Scale {
 
     /// A tick as text, the power of ten taken out.
     pub(super) fn tick(&self, value: f64) -> String {
+        if self.powers {
+            return power_of_ten(value.round() as i32);
+        }
         let scale = 10.0_f64.powi(self.exponent);
         let decimals = (-(self.step / scale).log10().floor()).clamp(0.0, 12.0) as usize;
         let text = format!("{:.decimals$}", value / scale);
@@ -85,14 +104,18 @@ impl Scale {
         if self.exponent == 0 {
             return format!("{quantity} [{unit}]");
         }
-        let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-        let superscript = |c: char| match c.to_digit(10) {
-            Some(d) => digits.chars().nth(d as usize).unwrap_or(c),
-            None => '⁻',
-        };
-        let power: String = self.exponent.to_string().chars().map(superscript).collect();
-        format!("{quantity} [10{power} {unit}]")
+        format!("{quantity} [{} {unit}]", power_of_ten(self.exponent))
     }
+}
+
+fn power_of_ten(exponent: i32) -> String {
+    let digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+    let superscript = |c: char| match c.to_digit(10) {
+        Some(d) => digits.chars().nth(d as usize).unwrap_or(c),
+        None => '⁻',
+    };
+    let power: String = exponent.to_string().chars().map(superscript).collect();
+    format!("10{power}")
 }
 
 /// 1, 2 or 5 times a power of ten, not below `rough`.
@@ -131,5 +154,15 @@ mod tests {
             assert!(scale.low < value && value < scale.high);
             assert!(scale.count() >= 3);
         }
+    }
+
+    #[test]
+    fn powers_of_ten_are_ticks() {
+        let scale = Scale::powers([-3.2, 0.0, 2.7].into_iter());
+        assert_eq!(scale.ticks(), [-4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0]);
+        assert_eq!(scale.tick(-3.0), "10⁻³");
+        assert_eq!(scale.label("Force", "N"), "Force [N]");
+        let wide = Scale::powers([-30.0, 0.0].into_iter());
+        assert!(wide.count() < 10 && wide.low <= -30.0);
     }
 }
