@@ -35,8 +35,12 @@ enum Task {
         /// Folder of the problem files; $FCLIB_DIR or ../shared/fclib without it
         folder: Option<std::path::PathBuf>,
     },
-    /// Error against time of all methods: docs/verification/contact_precision.md and its picture
-    Precision,
+    /// Error against time, of the contact methods and of the scenes with adhesion: tables and pictures in
+    /// docs/verification
+    Precision {
+        /// All without it
+        studies: Vec<precision::Study>,
+    },
     /// The figures of [Hu2022]: docs/verification/hu2022.md and what it leads to
     Figures {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
@@ -49,7 +53,7 @@ fn main() -> ExitCode {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
-        Task::Precision => precision::run(),
+        Task::Precision { studies } => precision::run(&studies),
         Task::Figures { names } => figures::run(&names),
     };
     match outcome {

@@ -35,6 +35,8 @@ pub struct Detector {
     interfaces: Vec<Interface>,
     searches: Vec<Option<SurfaceSearch>>,
     frames: Vec<FrameRule>,
+    /// How far each interface is searched \[m\].
+    reaches: Vec<f64>,
     dim: usize,
     cone: Cone,
     counters: DetectionCounters,
@@ -83,6 +85,7 @@ impl Detector {
             .collect();
         let counters = DetectionCounters::default();
         Ok(Self {
+            reaches: interfaces.iter().map(|i| i.search_distance).collect(),
             interfaces,
             searches,
             frames,
@@ -110,6 +113,16 @@ impl Detector {
         self
     }
 
+    /// Searches an interface farther than its search distance, as far as `reach` \[m\]: bonds may hold beyond it. A smaller
+    /// `reach` means the search distance again.
+    pub fn extend(&mut self, interface: usize, reach: f64) {
+        let reach = reach.max(self.interfaces[interface].search_distance);
+        self.reaches[interface] = reach;
+        if let Some(search) = &mut self.searches[interface] {
+            search.set_reach(reach);
+        }
+    }
+
     /// The interfaces, in the order that [`Contact::interface`] counts.
     pub fn interfaces(&self) -> &[Interface] {
         &self.interfaces
@@ -132,6 +145,7 @@ impl Detector {
                 index: k,
                 interface: &self.interfaces[k],
                 rule: self.frames[k],
+                reach: self.reaches[k],
                 positions,
                 dim: self.dim,
             };
@@ -191,6 +205,7 @@ struct Seeker<'a> {
     index: usize,
     interface: &'a Interface,
     rule: FrameRule,
+    reach: f64,
     positions: &'a [f64],
     dim: usize,
 }
@@ -209,7 +224,7 @@ impl Seeker<'_> {
     /// However deep: a rigid solid has no other side to come from.
     fn touch_obstacle(&self, placed: &PlacedObstacle, slave_index: usize) -> Option<Contact> {
         let slave = self.interface.slave[slave_index];
-        let reach = self.interface.search_distance;
+        let reach = self.reach;
         let at = placed.closest(self.slave_position(slave_index), CORE * reach);
         (at.gap <= reach).then(|| Contact {
             interface: self.index,

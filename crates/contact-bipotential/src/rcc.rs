@@ -176,6 +176,18 @@ pub struct Bond {
 }
 
 impl Bond {
+    /// Whether the bond is worth following: not broken, and pulling with a thousandth of its strength `s0 = sqrt(w C)` or
+    /// more. What is left of the work of separation then is `w/200` at most in slow separation.
+    pub fn holds(&self, law: &Adhesion) -> bool {
+        let [t1, t2] = law.tangential_stiffness;
+        let [u1, u2] = self.separation;
+        let pull =
+            (law.normal_stiffness * self.gap).powi(2) + (t1 * u1).powi(2) + (t2 * u2).powi(2);
+        let strength = (law.energy * t1.max(t2).max(law.normal_stiffness)).sqrt();
+        let beta = self.intensity;
+        beta > law.threshold && (self.gap == 0.0 || beta * beta * pull.sqrt() > 1e-3 * strength)
+    }
+
     /// Free energy of the bond \[J\] on an area [m^2].
     pub fn energy(&self, law: &Adhesion, area: f64) -> f64 {
         let (beta, k) = (self.intensity, law.strain(&self.separation, self.gap));

@@ -7,9 +7,12 @@ use crate::error::{NscdError, StepFailure};
 use crate::law::in_frame;
 use crate::model::Model;
 use crate::scheme::ContactLevel;
-use crate::state::NodeBond;
+use crate::state::{NodeBond, State};
 use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};
+
+/// How far an adhesive interface is searched at least, in gaps at which bonds start to break.
+const LEAST_REACH: f64 = 3.0;
 
 /// The round-off of a gap over the size of the positions.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
@@ -72,11 +75,7 @@ pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> 
                 model.solid.dim(),
                 frame.end(),
             );
-            turned(
-                node.separation,
-                [axes[0], axes[1]],
-                [c.frame[0], c.frame[1]],
-            )
+            turned(node.separation, &axes, &c.frame)
         };
         let area = interface.area[c.slave_index];
         BondStep::new(law, area, frame.dt, node.in_frame(separation), roundoff)
@@ -84,20 +83,25 @@ pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> 
     map.contacts.iter().map(one).collect()
 }
 
-/// A vector with components in two tangents `from`, in two other tangents `to`; its length is kept.
-fn turned(components: [f64; 2], from: [[f64; 3]; 2], to: [[f64; 3]; 2]) -> [f64; 2] {
-    let global: [f64; 3] =
+/// A tangential vector with components in the axes `from` (two tangents and their normal), in the axes `to`: turned with the
+/// normal the shortest way, so that there and back is nothing.
+fn turned(components: [f64; 2], from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 2] {
+    let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            a[j] * b[k] - a[k] * b[j]
+        })
+    };
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let v: [f64; 3] =
         std::array::from_fn(|i| components[0] * from[0][i] + components[1] * from[1][i]);
-    let projected = to.map(|t| (0..3).map(|i| t[i] * global[i]).sum::<f64>());
-    let (length, left) = (
-        components[0].hypot(components[1]),
-        projected[0].hypot(projected[1]),
-    );
-    if left > 0.0 {
-        projected.map(|p| p * (length / left))
-    } else {
-        projected
-    }
+    let axis = cross(from[2], to[2]);
+    // Opposite normals have no shortest way; such a pair has nothing to do with the one before.
+    let scale = 1.0 / (1.0 + dot(&from[2], &to[2])).max(1e-3);
+    let once = cross(axis, v);
+    let twice = cross(axis, once);
+    let turned: [f64; 3] = std::array::from_fn(|i| v[i] + once[i] + scale * twice[i]);
+    [dot(&to[0], &turned), dot(&to[1], &turned)]
 }
 
 /// What every slave node remembers after the step. A pair that the search has lost is a new one when it meets again.
@@ -126,7 +130,7 @@ pub(crate) fn carry_on(
         bonds[c.interface][c.slave_index] = NodeBond {
             intensity: end.intensity,
             gap: end.gap,
-            separation: turned(end.separation, [c.frame[0], c.frame[1]], [axes[0], axes[1]]),
+            separation: turned(end.separation, &c.frame, &axes),
             facet: c.facet,
         };
     }
@@ -144,6 +148,40 @@ fn no_bonds(model: &Model) -> Vec<Vec<NodeBond>> {
 }
 
 impl Stepper<'_> {
+    /// Lets the search reach as far as bonds hold: twice their gaps, for what they may open in this step.
+    pub(crate) fn reach_for_bonds(&mut self, now: &State) {
+        for (k, interface) in self.model.interfaces.iter().enumerate() {
+            let Some(law) = &interface.adhesion else {
+                continue;
+            };
+            let held = now.bonds[k]
+                .iter()
+                .filter(|b| b.in_frame(b.separation).holds(law));
+            let widest = held.fold(LEAST_REACH * law.damage_gap(), |m, b| m.max(2.0 * b.gap));
+            self.detector.extend(k, widest);
+        }
+    }
+
+    /// Counts the bonds that held before the step and whose pair the search has lost.
+    pub(crate) fn count_lost_bonds(&mut self, now: &State, map: &ContactMap) {
+        for (k, interface) in self.model.interfaces.iter().enumerate() {
+            let Some(law) = &interface.adhesion else {
+                continue;
+            };
+            for (slave_index, bond) in now.bonds[k].iter().enumerate() {
+                let found = |c: &Contact| (c.interface, c.slave_index);
+                if bond.in_frame(bond.separation).holds(law)
+                    && map
+                        .contacts
+                        .binary_search_by_key(&(k, slave_index), found)
+                        .is_err()
+                {
+                    self.counters.lost_bonds += 1;
+                }
+            }
+        }
+    }
+
     /// The bonds at the start: those of touching pairs have the initial intensity.
     pub(crate) fn initial_bonds(&mut self, u: &[f64]) -> Vec<Vec<NodeBond>> {
         let mut bonds = no_bonds(self.model);

@@ -3,7 +3,7 @@
 use contact_bipotential::local::local_axes;
 
 use crate::bonds::{adhesive_energy, carry_on};
-use crate::law::{in_frame, relative_displacement, relative_velocity};
+use crate::law::{in_frame, relative_displacement, relative_velocity, state_before};
 use crate::monitor::Check;
 use crate::report::{EnergyTerms, Resultant, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
@@ -39,6 +39,7 @@ impl Stepper<'_> {
         contact_terms(frame, &trial, &moved, &contacts, cone, &mut energy);
         let positions = model.positions(&trial.u);
         let bonds = carry_on(frame, &trial, &positions);
+        self.count_lost_bonds(frame.now, &trial.map);
         let adhesive = adhesive_energy(model, &bonds);
         bond_terms(frame, &trial, adhesive, &mut energy);
         // A gap of the size of the round-off of the positions is closed, with or without a force.
@@ -169,24 +170,20 @@ fn contact_terms(
     terms: &mut EnergyTerms,
 ) {
     for (k, c) in trial.map.contacts.iter().enumerate() {
-        let r = &trial.r[cone * k..cone * (k + 1)];
-        let dx = &moved[cone * k..cone * (k + 1)];
-        let (tangential, normal) = (
-            dot(&r[..cone - 1], &dx[..cone - 1]),
-            r[cone - 1] * dx[cone - 1],
-        );
+        let r = in_frame(&trial.r[cone * k..cone * (k + 1)]);
+        let dx = in_frame(&moved[cone * k..cone * (k + 1)]);
         let bond = contacts[k].bond.map_or([0.0; 3], |bond| bond.force);
         let slip = contacts[k].slip;
-        let global = global_force(&contacts[k]);
-        terms.load_work += dot(&global, &c.obstacle_motion);
-        terms.friction -= tangential - bond[0] * slip[0] - bond[1] * slip[1];
+        terms.load_work += dot(&global_force(&contacts[k]), &c.obstacle_motion);
+        terms.friction -= (r[0] - bond[0]) * slip[0] + (r[1] - bond[1]) * slip[1];
         match frame.model.scheme.contact {
-            ContactLevel::Velocity => terms.impact -= normal,
+            ContactLevel::Velocity => terms.impact -= r[2] * dx[2],
             ContactLevel::Position => {
-                let start = gap_before(frame.now, &contacts[k]).unwrap_or(c.gap - dx[cone - 1]);
-                let closing = start - c.gap;
-                terms.impact += (r[cone - 1] - bond[2]) * closing;
-                terms.gap_error -= normal + r[cone - 1] * closing;
+                let before = state_before(frame.now, (c.interface, c.slave_index));
+                let closing = before.map_or(c.gap - dx[2], |b| b.gap) - c.gap;
+                terms.impact += (r[2] - bond[2]) * closing;
+                let told = r[0] * slip[0] + r[1] * slip[1] - r[2] * closing;
+                terms.gap_error += told - dot(&r, &dx);
                 // What the bond is told about its start and where the pair started may differ for a new pair.
                 terms.bond_error += bond[2] * (closing - bond_closing(trial, k));
             }
@@ -213,15 +210,6 @@ fn bond_terms(frame: &StepFrame<'_>, trial: &Trial, adhesive: f64, terms: &mut E
     }
 }
 
-/// Gap of the same slave node at the end of the last step, if it was a candidate then.
-fn gap_before(now: &State, contact: &ContactState) -> Option<f64> {
-    let key = (contact.interface, contact.slave_index);
-    let found = now
-        .contacts
-        .binary_search_by_key(&key, |c| (c.interface, c.slave_index));
-    found.ok().map(|i| now.contacts[i].gap)
-}
-
 fn global_force(contact: &ContactState) -> [f64; 3] {
     std::array::from_fn(|i| (0..3).map(|k| contact.force[k] * contact.frame[k][i]).sum())
 }
@@ -245,6 +233,9 @@ fn contact_states(
             let mut mu = frame.model.interfaces[c.interface].mu;
             let adhesive = frame.model.interfaces[c.interface].adhesion.is_some();
             let x = in_frame(&trial.x[cone * k..cone * (k + 1)]);
+            if frame.model.scheme.contact == ContactLevel::Position {
+                motion = x;
+            }
             let bond = trial.bonds.get(k).filter(|_| adhesive).map(|bond| {
                 let at = bond.at(&x);
                 mu = bond.friction(mu, at.intensity);

@@ -7,6 +7,7 @@ use contact_bipotential::{BondStep, Contact, ContactMap};
 use crate::contact::ContactMemory;
 use crate::model::Model;
 use crate::scheme::ContactLevel;
+use crate::state::{ContactState, State};
 use crate::trial::{StepFrame, Trial};
 
 /// Local variable of every contact of `map` at an iterate \[m\]: slip of the step and gap, or at the
@@ -23,6 +24,7 @@ pub(crate) fn local_variable(
             let mut x = relative_displacement(frame, map, u);
             for (c, x) in map.contacts.iter().zip(x.chunks_exact_mut(cone)) {
                 x[cone - 1] = c.gap;
+                take_off_turn(frame, c, x);
             }
             x
         }
@@ -38,6 +40,30 @@ pub(crate) fn local_variable(
             x
         }
     }
+}
+
+/// An open bond that turns as a whole does not slip: the node goes round with the normal, `g_0 (n_1 - n_0)`.
+fn take_off_turn(frame: &StepFrame<'_>, contact: &Contact, x: &mut [f64]) {
+    if frame.model.interfaces[contact.interface].adhesion.is_none() {
+        return;
+    }
+    let Some(before) = state_before(frame.now, (contact.interface, contact.slave_index)) else {
+        return;
+    };
+    let last = x.len() - 1;
+    for (x, axis) in x[..last].iter_mut().zip(local_axes(last + 1)) {
+        let tangent = contact.frame[*axis];
+        let turn: f64 = (0..3).map(|i| tangent[i] * before.frame[2][i]).sum();
+        *x += before.gap.max(0.0) * turn;
+    }
+}
+
+/// What a slave node did at the end of the last step, if it was a candidate then: (interface, slave index).
+pub(crate) fn state_before(now: &State, key: (usize, usize)) -> Option<&ContactState> {
+    let found = now
+        .contacts
+        .binary_search_by_key(&key, |c| (c.interface, c.slave_index));
+    found.ok().map(|i| &now.contacts[i])
 }
 
 /// Displacement of the slave relative to the master in the step, in local frames \[m\].

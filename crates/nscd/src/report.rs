@@ -33,6 +33,8 @@ pub struct Counters {
     pub contacts_max: u64,
     /// Contact problems that held bonds.
     pub bonded_solves: u64,
+    /// Bonds that held when the contact search lost their pair.
+    pub lost_bonds: u64,
 }
 
 /// Part of the work that a time is booked on.

@@ -127,6 +127,7 @@ impl<'m> Stepper<'m> {
     /// Why the step was rejected.
     pub fn step(&mut self, now: &State, dt: f64) -> Result<(State, StepReport), StepFailure> {
         self.memory.restore(now);
+        self.reach_for_bonds(now);
         self.extrapolation.forget();
         let frame = StepFrame::new(self.model, now, dt, self.initial_stiffness.as_ref());
         let mut trial = self.predict(&frame)?;

@@ -215,3 +215,66 @@ fn without_viscosity_the_peak_is_the_strength_of_the_bond() {
     );
     assert_eq!(run.totals.energy.bond, 0.0);
 }
+
+/// A stretched bond whose body and master turn together by a right angle: nothing happens to it.
+#[test]
+fn a_bond_that_turns_with_its_bodies_notices_nothing() {
+    const TURN: &str = r#"(
+    title: "open bond turned by 90 degrees",
+    materials: {"m": (law: BlatzKo(G: 1.0e8), density: 1.0)},
+    bodies: {"b": (mesh: Rectangle(min: (-0.5, 0.0), max: (0.5, 0.5), cells: (2, 1)), material: "m")},
+    motions: {
+        "lift": (nodes: "b.y_max", components: "xy", motion: Move(
+            translation: (TX, TY, 0.0),
+            rotation: Some((point: (0.0, 0.0, 0.0), axis: (0.0, 0.0, 1.0), angle: [(1.0, 0.0), (2.0, 1.5707963267948966)])))),
+    },
+    interfaces: {"g": (
+        slave: "b.y_min", master: Plane(point: (0.0, 0.0, 0.0), normal: (0.0, 1.0, 0.0)), mu: 0.0, search_distance: Some(0.001),
+        motion: Move(translation: (0.0, 0.0, 0.0),
+            rotation: Some((point: (0.0, 0.0, 0.0), axis: (0.0, 0.0, 1.0), angle: [(1.0, 0.0), (2.0, 1.5707963267948966)]))),
+    )},
+    time: (end: 2.0, dt: 0.02, inertia: QuasiStatic),
+    output: (fields_every: Never),
+)"#;
+    // Lifted by 4 mm, then about the origin: the lift turns too.
+    let path = |f: &dyn Fn(f64) -> f64| {
+        let turn = (0..=50).map(|k| f64::from(k) / 50.0);
+        let points: Vec<String> = turn
+            .map(|s| format!("({:?}, {:?})", 1.0 + s, f(s * std::f64::consts::FRAC_PI_2)))
+            .collect();
+        format!("[(0.0, 0.0), {}]", points.join(", "))
+    };
+    let text = TURN
+        .replace("TX", &path(&|a| -0.004 * a.sin()))
+        .replace("TY", &path(&|a| 0.004 * a.cos()));
+    let mut built = scenarios::build::build(&scene_text(&text, &[])).unwrap();
+    built.model.interfaces[0].adhesion = Some(Adhesion {
+        initial: 1.0,
+        ..law()
+    });
+    let run = try_run_built(built);
+    assert!(run.end.is_ok(), "{:?}", run.end);
+    run.assert_audited(10.0, 1e-9);
+    let lifted = run.steps.iter().find(|s| s.report.time > 0.999).unwrap();
+    let change = run.last().state.adhesive_energy - lifted.state.adhesive_energy;
+    assert!(change.abs() < 1e-6 * 10.0, "{change}");
+    let (before, after) = (
+        lifted.report.interfaces[0].force,
+        run.last().report.interfaces[0].force,
+    );
+    let pull = before[1];
+    // The pull against the plane has turned with it: from -y to +x.
+    assert!(
+        pull < -300.0
+            && (after[0] + pull).abs() < 1e-3 * pull.abs()
+            && after[1].abs() < 1e-3 * pull.abs(),
+        "{before:?} {after:?}"
+    );
+    // The gap is four times the distance that is searched without bonds.
+    assert_eq!(run.counters.lost_bonds, 0);
+    assert!(
+        run.last().state.bonds[0]
+            .iter()
+            .all(|b| b.intensity > 0.99 && b.gap > 0.0039)
+    );
+}

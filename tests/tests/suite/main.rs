@@ -7,6 +7,7 @@
 mod common;
 
 mod adhesion;
+mod adhesion_scenes;
 mod bar;
 mod control;
 mod convergence;

@@ -156,6 +156,10 @@ impl SurfaceSearch {
         self.axis = (0..on_axis.len()).filter(|i| on_axis[*i]).collect();
     }
 
+    pub(super) fn set_reach(&mut self, reach: f64) {
+        self.reach = reach;
+    }
+
     /// Reads the surface's positions out of the flat array of the mesh.
     pub(super) fn gather(&mut self, positions: &[f64]) {
         self.points.clear();
