@@ -198,15 +198,22 @@ fn rejection(r: &nscd::Rejection) -> String {
 /// Share of the energy beyond which the integration error deserves a word.
 const NOTABLE_ERROR: f64 = 0.1;
 
-fn warnings(energy: &EnergySummary, largest: f64) -> Vec<String> {
+fn warnings(energy: &EnergySummary, largest: f64, lost_bonds: u64) -> Vec<String> {
+    let mut warnings = Vec::new();
     let share = energy.integration_share(largest);
-    if share <= NOTABLE_ERROR {
-        return Vec::new();
+    if share > NOTABLE_ERROR {
+        warnings.push(format!(
+            "the time integration made up {:.0} % of the energy: take smaller steps before you believe the numbers",
+            100.0 * share
+        ));
     }
-    vec![format!(
-        "the time integration made up {:.0} % of the energy: take smaller steps before you believe the numbers",
-        100.0 * share
-    )]
+    if lost_bonds > 0 {
+        warnings.push(format!(
+            "{lost_bonds} bonds that still held were lost with their pair: nodes slid off their master or moved too far in one \
+             step; try a larger master, smaller steps or a larger search_distance"
+        ));
+    }
+    warnings
 }
 
 /// What a run did and cost; `stopped` says why it did not reach its end.
@@ -244,7 +251,7 @@ pub fn summarise(
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
         rejections: totals.rejections.iter().take(100).map(rejection).collect(),
-        warnings: warnings(&energy, totals.largest_energy),
+        warnings: warnings(&energy, totals.largest_energy, counters.lost_bonds),
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,
