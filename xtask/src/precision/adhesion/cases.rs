@@ -49,7 +49,9 @@ const UP: f64 = 2.0;
 
 const INDENTATION: Case = Case {
     title: "indentation",
-    about: "Pull-off force, its time, and the time at which the bond 2 mm from the axis falls below a half.",
+    about: "Pull-off force, its time, and the time at which the bond 2 mm from the axis falls below a half. \
+            The force is the small difference of pull and pressure and drops whenever a ring of nodes lets go: its largest value \
+            depends on the mesh, and on the step where that falls between two rings.",
     scene: "indentation",
     sets: &[],
     levels: &[
@@ -77,7 +79,8 @@ fn pull_off(samples: &[Sample]) -> Option<(f64, f64)> {
 const WHEEL: Case = Case {
     title: "wheel, first 20 ms",
     about: "A node of the rim 28.1 degrees from the lowest: its largest pull and the time at which its bond falls below a tenth. \
-            Mean horizontal force on the lower side from 10 to 20 ms.",
+            Mean horizontal force on the lower side from 10 to 20 ms. A bond grows by w dt / b in each step of contact, so that the \
+            intensity with which it lets go, and the pull with its square, is known to a step; the mesh decides how long a node touches.",
     scene: "wheel",
     sets: &["end=0.02", "probes.b.node=(0.0023570, -0.0044096, 0.0)"],
     levels: &[
