@@ -113,13 +113,16 @@ fn a_stiffer_wheel_bonds_alike_and_debonds_earlier() {
     }
 }
 
+/// Node of the lower face at `(x, y)` \[mm\].
+fn lower_node(run: &Run, x: f64, y: f64) -> usize {
+    let points = &run.built.model.solid.mesh().points;
+    let distance = |p: &[f64; 3]| (p[0] - 1e-3 * x).hypot(p[1] - 1e-3 * y) + p[2].abs();
+    points.iter().position(|p| distance(p) < 1e-9).unwrap()
+}
+
 /// How far the corner of the lower face has moved sideways \[m\].
 fn corner_moved(run: &Run) -> Vec<(f64, f64)> {
-    let points = &run.built.model.solid.mesh().points;
-    let corner = points
-        .iter()
-        .position(|p| *p == [0.005, 0.005, 0.0])
-        .unwrap();
+    let corner = lower_node(run, 5.0, 5.0);
     let moved = |u: &[f64]| u[3 * corner].hypot(u[3 * corner + 1]);
     let steps = run.steps.iter();
     steps.map(|s| (s.report.time, moved(&s.state.u))).collect()
@@ -151,16 +154,19 @@ fn a_bonded_block_debonds_from_the_rim_inwards_and_later_if_rough() {
         "mu=0.2",
     ];
     let smooth = audited("twist", &[&BLOCK[..], &longer].concat());
-    let fall = |run: &Run, name| falls_below(&probe(run, name, "twist"), 0.5);
-    let [corner, edge, center] = ["corner", "edge", "center"].map(|n| fall(&smooth, n).unwrap());
-    assert!(
-        corner + 2e-4 < edge && edge + 2e-4 < center,
-        "{corner} {edge} {center}"
-    );
+    let bond = |run: &Run, x, y| intensity(run, lower_node(run, x, y) as u32);
+    let fall = |run: &Run, x, y| falls_below(&bond(run, x, y), 0.5).unwrap();
+    let inwards = [(5.0, 5.0), (5.0, 0.0), (3.75, 0.0), (2.5, 0.0)];
+    let times = inwards.map(|(x, y)| fall(&smooth, x, y));
+    assert!(times.is_sorted_by(|a, b| a + 1e-4 < *b), "{times:?}");
+    // Nothing shears the bond on the axis.
+    let center = bond(&smooth, 0.0, 0.0).pop().unwrap().1;
+    assert!(center > 0.9, "{center}");
     let [middle, rough] = ["mu=0.4", "mu=0.6"].map(|mu| {
         let run = audited("twist", &[&BLOCK[..], &[mu]].concat());
-        fall(&run, "corner").unwrap()
+        fall(&run, 5.0, 5.0)
     });
+    let corner = times[0];
     assert!(
         corner + 3e-4 < middle && middle + 3e-4 < rough,
         "{corner} {middle} {rough}"

@@ -66,6 +66,17 @@ impl Findings {
         pairs.map(|(value, exact)| value / exact - 1.0).collect()
     }
 
+    /// What the last three rungs approach, if each step between them is clearly smaller than the one before.
+    fn limit(&self, quantity: usize) -> Option<f64> {
+        let rungs = self.rows.iter().filter(|row| row.level.ladder);
+        let values: Vec<f64> = rungs.map(|row| row.values[quantity]).collect();
+        let &[.., a, b, c] = &values[..] else {
+            return None;
+        };
+        let ratio = (b - a) / (c - b);
+        (ratio > 1.3).then(|| c + (c - b) / (ratio - 1.0))
+    }
+
     /// Largest deviation [-]; NaN if one is.
     fn worst(&self, row: &Row) -> f64 {
         let errors = self.errors(row).into_iter().map(f64::abs);

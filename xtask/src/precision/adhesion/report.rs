@@ -20,7 +20,8 @@ pub(super) fn markdown(all: &[Findings]) -> String {
         Made by `cargo xtask precision adhesion`. A row is a run on one thread; its CPU seconds hold the building of the model, but\n\
         no output. Peaks are those of the parabola through the largest value and its neighbours, times those of the line\n\
         between two steps, so that the steps do not quantise them. In brackets the deviation from the finest row of the\n\
-        ladder (in bold), in which mesh and step are halved together. The other rows halve one of the two.\n\n\
+        ladder (in bold), in which mesh and step are halved together. The other rows halve one of the two.\n\
+        The limit is extrapolated from the last three rungs where the steps between them shrink.\n\n\
         ![Error against time](adhesion.svg)\n\n\
         Deviation of every quantity from the finest level over CPU seconds, along the ladder.\n"
         .to_owned();
@@ -46,7 +47,21 @@ fn section(text: &mut String, findings: &Findings) {
     for row in &findings.rows {
         let _ = writeln!(text, "{}", line(findings, row));
     }
+    let _ = writeln!(text, "{}", limits(findings));
     let _ = writeln!(text, "\n{}", verdict(findings));
+}
+
+/// What the ladder goes to, and how far its finest row is from there.
+fn limits(findings: &Findings) -> String {
+    let finest = findings.reference().map_or(&[][..], |row| &row.values);
+    let cells = finest.iter().enumerate().map(|(k, value)| {
+        findings.limit(k).map_or("-".to_owned(), |limit| {
+            let left = 100.0 * (value / limit - 1.0);
+            format!("{} (finest {left:+.1} %)", digits(limit))
+        })
+    });
+    let cells: Vec<String> = cells.collect();
+    format!("| limit | | | | | {} |", cells.join(" | "))
 }
 
 fn line(findings: &Findings, row: &Row) -> String {
