@@ -14,7 +14,7 @@ const HEIGHT: u32 = 680;
 /// Column of the colour bar.
 const BAR: u32 = 130;
 /// Above this many visible faces each is one patch of colour.
-const SMOOTH_FACES: usize = 3000;
+const SMOOTH_FACES: usize = 1000;
 
 /// Picture of the deformed surface, coloured by the cell field `von_mises` averaged to the nodes; grey when there
 /// is none. Needs the point field `displacement` to deform anything.
