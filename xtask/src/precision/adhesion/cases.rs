@@ -88,7 +88,7 @@ const WHEEL: Case = Case {
     about: "A node of the rim 28.1 degrees from the lowest: its largest pull and the time at which its bond falls below a tenth. \
             Mean horizontal force on the lower side from 10 to 20 ms. A bond grows by w dt / b in each step of contact, so that the \
             intensity with which it lets go, and the pull with its square, is known to a step. The nodes make the \
-            patch of contact longer by a part of their distance: bonds have more time to form, in first order of the mesh.",
+            patch of contact longer by a part of their distance: bonds have more time to form, roughly in first order of the mesh.",
     scene: "wheel",
     sets: &["end=0.02", "probes.b.node=(0.0023570, -0.0044096, 0.0)"],
     levels: &[
@@ -164,7 +164,8 @@ fn pole(samples: &[Sample]) -> Option<f64> {
 
 const TWIST: Case = Case {
     title: "twist",
-    about: "Largest moment, and the times at which the mean intensity falls below .9 and below a half.",
+    about: "Largest moment, and the times at which the mean intensity falls below .9 and below a half. \
+            From rung to rung mesh and step shrink by the square root of 2.",
     scene: "twist",
     sets: &[],
     levels: &[

@@ -115,8 +115,10 @@ fn verdict(findings: &Findings) -> String {
     };
     let mut lines: Vec<String> = BOUNDS.map(cheapest).into();
     if let Some(row) = findings.rows.iter().find(|r| r.level.default) {
-        let worst = 100.0 * findings.worst(row);
-        lines.push(format!("The scene as it is: within {worst:.1} %."));
+        lines.push(match 100.0 * findings.worst(row) {
+            0.0 => "The scene as it is: the finest here.".to_owned(),
+            worst => format!("The scene as it is: within {worst:.1} %."),
+        });
     }
     lines.join("\n")
 }
