@@ -14,7 +14,8 @@ const SHOWN: usize = 1;
 /// End of the compression, and a time while the wheel rolls \[s\].
 const TIMES: [f64; 2] = [0.005, 0.020];
 const NODES: [&str; 3] = ["a", "b", "c"];
-const EPSILON: f64 = 1e-4;
+/// Intensity of a bond that has let go.
+const BROKEN: f64 = 0.1;
 
 pub(super) fn runs() -> Vec<Planned> {
     let run = |modulus: f64| {
@@ -123,7 +124,8 @@ fn inclination(run: &Ran) -> Result<String, String> {
     Ok(format!(
         "{}. The wheel leans by {} degrees at t = {} ms and by {} degrees at t = {} ms (the mean horizontal shift of its nodes over their \
          height).\n\nThe paper: symmetric just before the rotation, inclined while it rolls, because the bonds hold on where plate and wheel part; \
-         without adhesion it would not lean.",
+         without adhesion it would not lean. **Agrees** in sign; **differs** in size: with these bonds the lean is a fraction of a degree. The mesh and the \
+         density of the paper are lost.",
         run.plan.name,
         digits(lean(run, 0)?, 2),
         digits(1e3 * TIMES[0], 2),
@@ -133,7 +135,7 @@ fn inclination(run: &Ran) -> Result<String, String> {
 }
 
 fn bonds(runs: &[Ran]) -> Result<String, String> {
-    let mut text = "| run | node | bonds form from [ms] | largest beta | beta < epsilon at [ms] | largest pull [N/m] | at [ms] |\n\
+    let mut text = "| run | node | bonds form from [ms] | largest beta | beta < 0.1 at [ms] | largest pull [N/m] | at [ms] |\n\
         |---|---|---:|---:|---:|---:|---:|\n"
         .to_owned();
     for (k, run) in runs.iter().enumerate() {
@@ -150,13 +152,15 @@ fn bonds(runs: &[Ran]) -> Result<String, String> {
                 run.plan.name,
                 milliseconds(first_above(&time, &beta, 0.0)),
                 digits(peak(&time, &beta).1, 3),
-                milliseconds(first_below_after_peak(&time, &beta, EPSILON)),
+                milliseconds(first_below_after_peak(&time, &beta, BROKEN)),
                 digits(top, 3),
                 milliseconds(Some(at)),
             );
         }
     }
-    text += "\nThe paper: nodes debond in the order in which the wheel turns; while bonds form, beta does not depend on G; a stiffer wheel \
-             debonds earlier. Forces are per metre of thickness.";
+    text += "\n**Agrees:** nodes debond in the order in which the wheel turns, bonds form again in the next half turn, and while they form beta does \
+             not depend on G.\n\n**Differs:** in the paper a stiffer wheel debonds clearly earlier; here the order in G is the same but the difference is \
+             hundredths of a millisecond, less than the step of this run (a finer look: docs/verification/adhesion.md and its tests), since bonds of C_n = 2e9 N/m^3 on a rim \
+             spacing of 0.25 mm are a twentieth as stiff as the rim. Forces are per metre of thickness; a node that meets the upper plate half a turn later shows its bonds there.";
     Ok(text)
 }
