@@ -86,7 +86,7 @@ fn pull_off(samples: &[Sample]) -> Option<(f64, f64)> {
 const WHEEL: Case = Case {
     title: "wheel, first 20 ms",
     about: "A node of the rim 28.1 degrees from the lowest: its largest pull and the time at which its bond falls below a tenth. \
-            Mean horizontal force on the lower side from 10 to 20 ms. A bond grows by w dt / b in each step of contact, so that the \
+            Largest vertical and mean horizontal force on the lower side, the latter from 10 to 20 ms. A bond grows by w dt / b in each step of contact, so that the \
             intensity with which it lets go, and the pull with its square, is known to a step. The nodes make the \
             patch of contact longer by a part of their distance: bonds have more time to form, roughly in first order of the mesh.",
     scene: "wheel",
@@ -105,6 +105,9 @@ const WHEEL: Case = Case {
         }),
         quantity("beta < 1/10", "ms", 1e3, |s| {
             falls_below(&curve(s, 0.0, |s| s.beta[1]), 0.1)
+        }),
+        quantity("largest force", "N/m", 1.0, |s| {
+            Some(peak(&curve(s, 0.0, |s| s.force[0][1]))?.1)
         }),
         quantity("mean force", "N/m", 1.0, |s| {
             mean(&curve(s, 0.01, |s| s.force[0][0]))
