@@ -1,4 +1,4 @@
-//! The figures of [Hu2022], made again from runs: `docs/verification/hu2022.md` and the pages beside its pictures.
+//! The figures of \[Hu2022\], made again from runs: `docs/verification/hu2022.md` and the pages beside its pictures.
 
 mod indentation;
 mod laws;

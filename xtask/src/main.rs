@@ -41,7 +41,7 @@ enum Task {
         /// All without it
         studies: Vec<precision::Study>,
     },
-    /// The figures of [Hu2022]: docs/verification/hu2022.md and what it leads to
+    /// The figures of Hu2022: docs/verification/hu2022.md and what it leads to
     Figures {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
         names: Vec<String>,
