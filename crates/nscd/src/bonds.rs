@@ -1,5 +1,6 @@
 //! Bonds from step to step: what a slave node remembers, turned with its master's material.
 
+use contact_bipotential::frame::{to_global, to_local};
 use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, material_axes};
 
 use crate::contact::{ContactMemory, describe};
@@ -92,16 +93,15 @@ fn turned(components: [f64; 2], from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f6
             a[j] * b[k] - a[k] * b[j]
         })
     };
-    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let v: [f64; 3] =
-        std::array::from_fn(|i| components[0] * from[0][i] + components[1] * from[1][i]);
+    let v = to_global(from, [components[0], components[1], 0.0]);
     let axis = cross(from[2], to[2]);
+    let cosine: f64 = (0..3).map(|i| from[2][i] * to[2][i]).sum();
     // Opposite normals have no shortest way; such a pair has nothing to do with the one before.
-    let scale = 1.0 / (1.0 + dot(&from[2], &to[2])).max(1e-3);
+    let scale = 1.0 / (1.0 + cosine).max(1e-3);
     let once = cross(axis, v);
     let twice = cross(axis, once);
-    let turned: [f64; 3] = std::array::from_fn(|i| v[i] + once[i] + scale * twice[i]);
-    [dot(&to[0], &turned), dot(&to[1], &turned)]
+    let turned = to_local(to, [0, 1, 2].map(|i| v[i] + once[i] + scale * twice[i]));
+    [turned[0], turned[1]]
 }
 
 /// What every slave node remembers after the step. A pair that the search has lost is a new one when it meets again.
@@ -222,5 +222,36 @@ impl ContactMemory {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use contact_bipotential::frame::frame_from_normal;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// A bond that is carried to the master's axes and back, step after step, keeps length and direction.
+        #[test]
+        fn there_and_back_is_nothing(
+            from in prop::array::uniform3(-1.0..1.0_f64), tilt in prop::array::uniform3(-0.4..0.4_f64), v in prop::array::uniform2(-1.0..1.0_f64),
+        ) {
+            let unit = |n: [f64; 3]| {
+                let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
+                (length > 0.5).then(|| n.map(|x| x / length))
+            };
+            let (n, m) = (unit(from), unit([0, 1, 2].map(|i| from[i] + tilt[i])));
+            prop_assume!(n.is_some() && m.is_some());
+            let (from, to) = (frame_from_normal(n.unwrap_or_default()), frame_from_normal(m.unwrap_or_default()));
+            let mut back = v;
+            for _ in 0..100 {
+                let there = turned(back, &from, &to);
+                prop_assert!((there[0].hypot(there[1]) - v[0].hypot(v[1])).abs() < 1e-12);
+                back = turned(there, &to, &from);
+            }
+            prop_assert!((back[0] - v[0]).abs() < 1e-11 && (back[1] - v[1]).abs() < 1e-11, "{v:?} {back:?}");
+        }
     }
 }

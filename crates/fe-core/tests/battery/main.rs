@@ -8,5 +8,6 @@ mod common;
 mod loads;
 mod meshes;
 mod plane;
+mod shape_bounds;
 mod shapes;
 mod surfaces;
