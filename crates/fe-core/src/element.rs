@@ -33,6 +33,9 @@ pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
     const NODES: usize;
     /// Number of quadrature points of the force and the tangent.
     const POINTS: usize;
+    /// Functions of the projected dilatation ([`crate::Dilatation`]): the first ones of 1, X, Y, Z. Few enough that the element
+    /// does not lock, and no pressure is without resistance.
+    const DILATATION_MODES: usize = 1;
     /// `[f64; NODES]`.
     type Nodal: Nodal;
 

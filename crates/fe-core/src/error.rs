@@ -177,6 +177,17 @@ pub enum FeError {
         /// Determinant of the deformation gradient \[-\].
         det_f: f64,
     },
+    /// Elements for which the projected dilatation is the pointwise one.
+    #[error(
+        "block `{block}`: the volume of a {kind:?} cell changes alike in all its quadrature points, so projecting the dilatation changes nothing and \
+         the cells lock as before; use Quad4 in the plane, Hex8 in space, or elements of second order"
+    )]
+    Unprojectable {
+        /// Name of the block.
+        block: String,
+        /// Kind of the cells.
+        kind: CellKind,
+    },
     /// A parameter outside its physical bounds.
     #[error("{place}: {what} = {value:e}, {bound}")]
     Parameter {

@@ -28,7 +28,7 @@ pub mod surface;
 mod parallel;
 mod vector;
 
-pub use block::{Block, ElementState, SolidBlock, solid_block};
+pub use block::{Block, Dilatation, ElementState, SolidBlock, solid_block, solid_block_with};
 pub use constraint::{DeadTraction, Dirichlet, Gravity};
 pub use element::{Element, Hex8, Quad4, Tet4, Tri3};
 pub use error::{FeError, MeshError};

@@ -126,7 +126,7 @@ fn masses_have_their_totals_and_integrate_linear_fields() {
 }
 
 /// One layer of hexahedra between planes that hold z, one metre thick.
-fn sheet(plane: &Mesh) -> Mesh {
+pub(crate) fn sheet(plane: &Mesh) -> Mesh {
     let lifted = |z: f64| plane.points.iter().map(move |x| [x[0], x[1], z]);
     let above = plane.points.len() as u32;
     let cells = plane.blocks[0].iter();

@@ -13,6 +13,20 @@ pub struct Body {
     /// Initial velocity of all its nodes \[m/s\].
     #[serde(default)]
     pub velocity: [f64; 3],
+    /// The change of volume that the law sees: a choice for nearly incompressible matter.
+    #[serde(default)]
+    pub dilatation: Dilatation,
+}
+
+/// The change of volume that the law of an element sees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Dilatation {
+    /// That of each quadrature point. Locks as nu tends to .5.
+    #[default]
+    Pointwise,
+    /// Its projection onto few functions of each element: their mean for linear ones. Does not lock. Not for Tri3 and Tet4.
+    Projected,
 }
 
 /// What the third direction of a plane scene is like.
