@@ -1,6 +1,7 @@
 //! The cases. A new one is a file with a function that returns it, and a line in [`all`].
 
 pub mod bar;
+pub mod first_light;
 pub mod hu2022;
 
 use crate::Case;
@@ -9,6 +10,9 @@ use crate::Case;
 pub fn all() -> Vec<Case> {
     vec![
         bar::on_a_wall(),
+        first_light::impact(),
+        first_light::press_twist(),
+        first_light::twist_dry(),
         hu2022::indentation(),
         hu2022::wheel(),
         hu2022::plate_cylinder(),
