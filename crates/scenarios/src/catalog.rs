@@ -55,6 +55,14 @@ pub const SCENES: &[Entry] = &[
         name: "debonding",
         text: include_str!("../scenes/debonding.ron"),
     },
+    Entry {
+        name: "cone",
+        text: include_str!("../scenes/cone.ron"),
+    },
+    Entry {
+        name: "flat-punch",
+        text: include_str!("../scenes/flat-punch.ron"),
+    },
 ];
 
 /// Text of a built-in scene or of a file, with the name that errors use.
