@@ -285,6 +285,12 @@ fn nothing_leaves_the_plane() {
             &["no z"],
         ),
         (
+            "(1, 0, 0))",
+            "(1, 0, 0), spin: (0, 1, 0))",
+            "bodies.wheel.spin",
+            &["along z"],
+        ),
+        (
             "-0.1)], 0)",
             "-0.1)], 1)",
             "motions.top.motion.translation.2",
