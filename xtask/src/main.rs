@@ -35,11 +35,11 @@ enum Task {
         /// Folder of the problem files; $FCLIB_DIR or ../shared/fclib without it
         folder: Option<std::path::PathBuf>,
     },
-    /// Error against time, of the contact methods and of the scenes with adhesion: tables and pictures in
+    /// Error against time, of the contact methods and of the scenes with a reference: tables and pictures in
     /// docs/verification
     Precision {
-        /// All without it
-        studies: Vec<precision::Study>,
+        /// contact, or names of cases; all without a name
+        names: Vec<String>,
     },
     /// The figures of Hu2022: docs/verification/hu2022.md and what it leads to
     Figures {
@@ -53,7 +53,7 @@ fn main() -> ExitCode {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
-        Task::Precision { studies } => precision::run(&studies),
+        Task::Precision { names } => precision::run(&names),
         Task::Figures { names } => figures::run(&names),
     };
     match outcome {

@@ -1,0 +1,104 @@
+//! Closed forms, in SI units. `e_star` is `E / (1 - nu^2)`: an elastic body on a rigid one.
+
+use std::f64::consts::PI;
+
+/// A contact of bars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BarImpact {
+    /// How long it lasts \[s\].
+    pub duration: f64,
+    /// Constant force \[N\].
+    pub force: f64,
+}
+
+/// A bar of a length \[m\], wave speed \[m/s\], density \[kg/m^3\], velocity \[m/s\] and area \[m^2\] that hits a rigid wall: the
+/// wave runs to the free end and back.
+pub fn bar_on_wall(length: f64, c: f64, density: f64, velocity: f64, area: f64) -> BarImpact {
+    BarImpact {
+        duration: 2.0 * length / c,
+        force: density * c * velocity * area,
+    }
+}
+
+/// Load \[N\], contact radius \[m\] and largest pressure \[Pa\] of a contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pressed {
+    /// Load \[N\]; per metre of thickness in the plane \[N/m\].
+    pub force: f64,
+    /// Radius or half-width of the contact \[m\].
+    pub radius: f64,
+    /// Largest pressure \[Pa\].
+    pub pressure: f64,
+}
+
+/// Hertz: a sphere of radius `r` \[m\] pressed into a half-space by `depth` \[m\].
+pub fn hertz_sphere(e_star: f64, r: f64, depth: f64) -> Pressed {
+    let radius = (r * depth).sqrt();
+    let force = 4.0 / 3.0 * e_star * radius * depth;
+    Pressed {
+        force,
+        radius,
+        pressure: 1.5 * force / (PI * radius * radius),
+    }
+}
+
+/// Hertz: a cylinder of radius `r` \[m\] pressed on a half-space by `force` \[N/m\].
+pub fn hertz_cylinder(e_star: f64, r: f64, force: f64) -> Pressed {
+    let radius = (4.0 * force * r / (PI * e_star)).sqrt();
+    Pressed {
+        force,
+        radius,
+        pressure: 2.0 * force / (PI * radius),
+    }
+}
+
+/// Boussinesq and Love: force \[N\] on a cone of semi-apex angle `alpha` \[rad\] at `depth` \[m\] \[Feng2007, eq. 61, corrected\].
+pub fn cone_force(e_star: f64, alpha: f64, depth: f64) -> f64 {
+    2.0 / PI * e_star * alpha.tan() * depth * depth
+}
+
+/// Radius of contact \[m\] of a cone.
+pub fn cone_radius(alpha: f64, depth: f64) -> f64 {
+    2.0 / PI * depth * alpha.tan()
+}
+
+/// Pressure \[Pa\] under a cone at the distance `s` \[m\] from its axis, inside the radius `a` \[m\] \[Feng2007, eq. 60\].
+pub fn cone_pressure(e_star: f64, alpha: f64, a: f64, s: f64) -> f64 {
+    0.5 * e_star / alpha.tan() * (a / s).acosh()
+}
+
+/// Force \[N\] on a flat punch of radius `a` \[m\] at `depth` \[m\].
+pub fn punch_force(e_star: f64, a: f64, depth: f64) -> f64 {
+    2.0 * a * e_star * depth
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn hertz_has_its_table_values() {
+        let ball = hertz_sphere(1.0, 1.0, 0.008_254_82);
+        assert_relative_eq!(ball.force, 1e-3, max_relative = 1e-5);
+        assert_relative_eq!(ball.radius, 0.090_856, max_relative = 1e-5);
+        assert_relative_eq!(ball.pressure, 0.057_840_7, max_relative = 1e-5);
+        let cylinder = hertz_cylinder(1.0, 1.0, 1e-3);
+        assert_relative_eq!(cylinder.radius, 0.035_682_5, max_relative = 1e-5);
+        assert_relative_eq!(cylinder.pressure, 0.017_841_2, max_relative = 1e-5);
+    }
+
+    #[test]
+    fn the_pressure_under_a_cone_adds_up_to_its_force() {
+        let (e_star, alpha, depth) = (2.0, 1.2, 0.3);
+        let a = cone_radius(alpha, depth);
+        // Midpoints, which keep off the logarithm at the apex.
+        let n = 200_000;
+        let rings = (0..n).map(|k| {
+            let s = a * (f64::from(k) + 0.5) / f64::from(n);
+            2.0 * PI * s * cone_pressure(e_star, alpha, a, s) * a / f64::from(n)
+        });
+        let sum: f64 = rings.sum();
+        assert_relative_eq!(sum, cone_force(e_star, alpha, depth), max_relative = 1e-6);
+    }
+}
