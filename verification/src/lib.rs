@@ -8,6 +8,7 @@ pub mod cases;
 pub mod closed_form;
 pub mod curve;
 pub mod run;
+pub mod short;
 
 pub use case::{Case, Found, Ladder, Measured, Rung, slope};
 pub use run::{Plan, Ran, compute, compute_all};

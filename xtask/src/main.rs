@@ -5,6 +5,7 @@ mod ci;
 mod fclib;
 mod figures;
 mod precision;
+mod regress;
 mod tidy;
 
 use std::process::ExitCode;
@@ -41,6 +42,14 @@ enum Task {
         /// contact, or names of cases; all without a name
         names: Vec<String>,
     },
+    /// Every scene in a short form against stored results and counters
+    Regress {
+        /// Names of scenes; all without a name
+        names: Vec<String>,
+        /// Store what comes out now
+        #[arg(long)]
+        update: bool,
+    },
     /// The figures of Hu2022: docs/verification/hu2022.md and what it leads to
     Figures {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
@@ -54,6 +63,7 @@ fn main() -> ExitCode {
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
         Task::Precision { names } => precision::run(&names),
+        Task::Regress { names, update } => regress::run(&names, update),
         Task::Figures { names } => figures::run(&names),
     };
     match outcome {

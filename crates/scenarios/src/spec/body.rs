@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Axis;
+
 /// One deformable body: a mesh of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -70,6 +72,28 @@ pub enum Mesh {
         /// Element.
         #[serde(default)]
         element: PlaneElement,
+    },
+    /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
+    Grid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
+    },
+    /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
+    SolidGrid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Lines along z.
+        z: Axis,
+        /// Element.
+        #[serde(default)]
+        element: Element,
     },
     /// Disc. Set `rim`, node set `center` (the node nearest the centre).
     Disc {
@@ -152,6 +176,15 @@ pub enum PlaneElement {
     Tri3,
 }
 
+impl Element {
+    fn per_brick(self) -> f64 {
+        match self {
+            Element::Hex8 => 1.0,
+            Element::Tet4 => 6.0,
+        }
+    }
+}
+
 impl PlaneElement {
     fn per_quadrilateral(self) -> f64 {
         match self {
@@ -185,19 +218,23 @@ pub struct MeshSize {
 impl Mesh {
     /// True for a mesh in the x-y plane.
     pub fn is_plane(&self) -> bool {
-        !matches!(self, Mesh::Box { .. } | Mesh::HalfBall { .. })
+        !matches!(
+            self,
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. }
+        )
     }
 
     /// Counts of the mesh with each cell count multiplied by `refine`.
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
+        let lines = |axis: &Axis| axis.cells() * refine as f64;
         let (nodes, elements) = match self {
-            Mesh::Box { cells, element, .. } => {
-                let per_cell = match element {
-                    Element::Hex8 => 1.0,
-                    Element::Tet4 => 6.0,
-                };
-                lattice(&cells.map(fine), per_cell)
+            Mesh::Box { cells, element, .. } => lattice(&cells.map(fine), element.per_brick()),
+            Mesh::SolidGrid { x, y, z, element } => {
+                lattice(&[x, y, z].map(lines), element.per_brick())
+            }
+            Mesh::Grid { x, y, element } => {
+                lattice(&[x, y].map(lines), element.per_quadrilateral())
             }
             Mesh::Rectangle { cells, element, .. } => {
                 lattice(&cells.map(fine), element.per_quadrilateral())
@@ -244,8 +281,12 @@ impl Mesh {
     /// Names of the node sets.
     pub fn node_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max", "all"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "all"]
+            }
             Mesh::Disc { .. } => &["rim", "center", "all"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base", "all"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis", "all"],
@@ -256,8 +297,10 @@ impl Mesh {
     /// Names of the facet sets.
     pub fn facet_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => &["x_min", "x_max", "y_min", "y_max"],
             Mesh::Disc { .. } => &["rim"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis"],

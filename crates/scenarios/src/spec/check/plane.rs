@@ -167,11 +167,12 @@ fn is_zero(table: &Table) -> bool {
 fn leftmost(mesh: &Mesh) -> f64 {
     match mesh {
         Mesh::Rectangle { min, .. } => min[0],
+        Mesh::Grid { x, .. } => x.min(),
         Mesh::Disc { center, radius, .. } | Mesh::HalfDisc { center, radius, .. } => {
             center[0] - radius
         }
         Mesh::QuarterDisc { center, .. } => center[0],
         Mesh::Annulus { center, outer, .. } => center[0] - outer,
-        Mesh::Box { .. } | Mesh::HalfBall { .. } => 0.0,
+        Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. } => 0.0,
     }
 }
