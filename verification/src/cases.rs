@@ -1,6 +1,8 @@
 //! The cases. A new one is a file with a function that returns it, and a line in [`all`].
 
 pub mod bar;
+pub mod block;
+pub mod free_body;
 pub mod hu2022;
 
 use crate::Case;
@@ -9,6 +11,13 @@ use crate::Case;
 pub fn all() -> Vec<Case> {
     vec![
         bar::on_a_wall(),
+        bar::on_a_clamped_bar(),
+        bar::exchange(),
+        bar::impedances(),
+        block::sliding(),
+        block::bouncing(),
+        free_body::turning(),
+        free_body::vibrating(),
         hu2022::indentation(),
         hu2022::wheel(),
         hu2022::plate_cylinder(),
