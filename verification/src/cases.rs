@@ -2,6 +2,8 @@
 
 pub mod bar;
 pub mod first_light;
+pub mod block;
+pub mod free_body;
 pub mod hu2022;
 
 use crate::Case;
@@ -13,6 +15,13 @@ pub fn all() -> Vec<Case> {
         first_light::impact(),
         first_light::press_twist(),
         first_light::twist_dry(),
+        bar::on_a_clamped_bar(),
+        bar::exchange(),
+        bar::impedances(),
+        block::sliding(),
+        block::bouncing(),
+        free_body::turning(),
+        free_body::vibrating(),
         hu2022::indentation(),
         hu2022::wheel(),
         hu2022::plate_cylinder(),

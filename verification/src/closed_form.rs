@@ -1,24 +1,13 @@
 //! Closed forms, in SI units. `e_star` is `E / (1 - nu^2)`: an elastic body on a rigid one.
 
+mod dynamics;
+
 use std::f64::consts::PI;
 
-/// A contact of bars.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BarImpact {
-    /// How long it lasts \[s\].
-    pub duration: f64,
-    /// Constant force \[N\].
-    pub force: f64,
-}
-
-/// A bar of a length \[m\], wave speed \[m/s\], density \[kg/m^3\], velocity \[m/s\] and area \[m^2\] that hits a rigid wall: the
-/// wave runs to the free end and back.
-pub fn bar_on_wall(length: f64, c: f64, density: f64, velocity: f64, area: f64) -> BarImpact {
-    BarImpact {
-        duration: 2.0 * length / c,
-        force: density * c * velocity * area,
-    }
-}
+pub use dynamics::{
+    BarImpact, Stop, bar_exchange, bar_on_clamped_bar, bar_on_wall, bounce_height,
+    bounce_rest_time, free_bar_period, sliding_stop, trapezoidal_period,
+};
 
 /// Load \[N\], contact radius \[m\] and largest pressure \[Pa\] of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]

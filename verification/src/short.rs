@@ -5,6 +5,17 @@ use crate::Plan;
 /// Scene and changed values; a coarser mesh where there is need, and an end after the things that matter have begun.
 const FORMS: &[(&str, &[&str])] = &[
     ("bar-impact", &["time.end=2.2", "dt=0.02"]),
+    (
+        "bar-on-bar",
+        &[
+            "striker.mesh.cells=(50, 1)",
+            "struck.mesh.cells=(50, 1)",
+            "time.dt=0.02",
+        ],
+    ),
+    ("bouncing-block", &["time.dt=0.002"]),
+    ("free-body", &["time.dt=0.02"]),
+    ("sliding-block", &["time.dt=0.004"]),
     ("debonding", &["mesh.cells=10", "time.dt=1.6e-4"]),
     ("impact", &["time.end=0.5", "mu=0.5"]),
     (
