@@ -12,9 +12,20 @@ pub struct Body {
     pub mesh: Mesh,
     /// Name of the material.
     pub material: String,
-    /// Initial velocity of all its nodes \[m/s\].
+    /// Initial velocity of the material at the origin, of all its nodes when it has no spin \[m/s\].
     #[serde(default)]
     pub velocity: [f64; 3],
+    /// Initial rate of rotation about the origin \[rad/s\]; adds `spin x X` to the velocity.
+    #[serde(default)]
+    pub spin: [f64; 3],
+}
+
+impl Body {
+    /// Initial velocity \[m/s\] of its node at `point` \[m\].
+    pub fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
+        let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
+        std::array::from_fn(|c| self.velocity[c] + turn((c + 1) % 3, (c + 2) % 3))
+    }
 }
 
 /// What the third direction of a plane scene is like.

@@ -285,6 +285,12 @@ fn nothing_leaves_the_plane() {
             &["no z"],
         ),
         (
+            "(1, 0, 0))",
+            "(1, 0, 0), spin: (0, 1, 0))",
+            "bodies.wheel.spin",
+            &["along z"],
+        ),
+        (
             "-0.1)], 0)",
             "-0.1)], 1)",
             "motions.top.motion.translation.2",
@@ -318,6 +324,12 @@ fn nothing_leaves_the_plane() {
         (
             "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
             "Cylinder(point: (0, 0, 0), axis: (1, 0, 1), radius: 1)",
+            "interfaces.ground.master.axis.2",
+            &["no z"],
+        ),
+        (
+            "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
+            "Punch(center: (0, 0, 0), axis: (0, 1, 1), radius: 1)",
             "interfaces.ground.master.axis.2",
             &["no z"],
         ),
