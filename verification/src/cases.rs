@@ -1,10 +1,13 @@
 //! The cases. A new one is a file with a function that returns it, and a line in [`all`].
 
 pub mod bar;
-pub mod first_light;
 pub mod block;
+pub mod contact_patch;
+pub mod first_light;
 pub mod free_body;
+pub mod hertz;
 pub mod hu2022;
+pub mod mindlin;
 
 use crate::Case;
 
@@ -27,5 +30,11 @@ pub fn all() -> Vec<Case> {
         hu2022::plate_cylinder(),
         hu2022::plate_cylinder_slow(),
         hu2022::twist(),
+        hertz::cylinder(),
+        hertz::sphere(),
+        hertz::ball(),
+        mindlin::cylinder(),
+        mindlin::sphere(),
+        contact_patch::non_matching(),
     ]
 }
