@@ -33,24 +33,26 @@ pub(super) struct Record {
     columns: BTreeMap<String, Column>,
 }
 
-/// A column of the history.
+/// A column of the history; some quantities are NaN where they do not exist.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Column {
-    end: f64,
-    mean: f64,
+    end: Option<f64>,
+    mean: Option<f64>,
     /// Largest size.
     largest: f64,
+    /// Entries that are not finite.
+    missing: usize,
 }
 
 impl Column {
     fn of(values: &[f64]) -> Column {
+        let finite = || values.iter().copied().filter(|v| v.is_finite());
+        let count = finite().count();
         Column {
-            end: values.last().copied().unwrap_or(f64::NAN),
-            mean: values.iter().sum::<f64>() / values.len() as f64,
-            // NaN must not get lost.
-            largest: values
-                .iter()
-                .fold(0.0, |m, v| if v.abs() <= m { m } else { v.abs() }),
+            end: values.last().copied().filter(|v| v.is_finite()),
+            mean: (count > 0).then(|| finite().sum::<f64>() / count as f64),
+            largest: finite().map(f64::abs).fold(0.0, f64::max),
+            missing: values.len() - count,
         }
     }
 }
@@ -135,16 +137,24 @@ impl Record {
             return (!within).then(|| format!("{name}: {:e}, may be {bound:e}", is.largest));
         }
         let allowed = TOLERANCE * self.scale(name);
+        if was.missing != is.missing {
+            return Some(format!(
+                "{name}: {} numbers missing, now {}",
+                was.missing, is.missing
+            ));
+        }
         let pairs = [
             ("end", was.end, is.end),
             ("mean", was.mean, is.mean),
-            ("largest", was.largest, is.largest),
+            ("largest", Some(was.largest), Some(is.largest)),
         ];
-        // Written so that NaN differs.
-        let differs = |(_, was, is): &&(&str, f64, f64)| !((was - is).abs() <= allowed);
-        let (what, was, is) = pairs.iter().find(differs)?;
+        let alike = |was: Option<f64>, is: Option<f64>| match (was, is) {
+            (Some(was), Some(is)) => (was - is).abs() <= allowed,
+            _ => was == is,
+        };
+        let (what, was, is) = pairs.iter().find(|(_, was, is)| !alike(*was, *is))?;
         Some(format!(
-            "{name}, {what}: {was:e} stored, now {is:e}, may differ by {allowed:.0e}"
+            "{name}, {what}: {was:?} stored, now {is:?}, may differ by {allowed:.0e}"
         ))
     }
 

@@ -1,8 +1,8 @@
 //! Meshes of the bodies of a scene.
 
 use fe_core::{
-    AnnulusMesh, BoxMesh, CellKind, DiscMesh, HalfBallMesh, HalfDiscMesh, Mesh, MeshError, Pole,
-    QuarterDiscMesh, RectangleMesh, Symmetry,
+    AnnulusMesh, BoxMesh, CellKind, DiscMesh, GridMesh, HalfBallMesh, HalfDiscMesh, Mesh,
+    MeshError, Pole, QuarterDiscMesh, RectangleMesh, Symmetry,
 };
 
 use crate::spec::{self, LoadedScene, SceneError};
@@ -27,6 +27,39 @@ pub(super) fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneErro
 fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshError> {
     let fine = |cells: usize| cells * refine;
     match *mesh {
+        spec::Mesh::Grid {
+            ref x,
+            ref y,
+            element,
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: plane_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
+        }
+        spec::Mesh::SolidGrid {
+            ref x,
+            ref y,
+            ref z,
+            element,
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y, z].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: solid_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
+        }
         spec::Mesh::Box {
             min,
             max,
@@ -38,10 +71,7 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             max,
             cells: cells.map(fine),
             grading,
-            kind: match element {
-                spec::Element::Hex8 => CellKind::Hex8,
-                spec::Element::Tet4 => CellKind::Tet4,
-            },
+            kind: solid_kind(element),
         }
         .generate(name),
         spec::Mesh::HalfBall {
@@ -127,6 +157,13 @@ fn pole(side: spec::Pole) -> Pole {
     match side {
         spec::Pole::Up => Pole::Up,
         spec::Pole::Down => Pole::Down,
+    }
+}
+
+fn solid_kind(element: spec::Element) -> CellKind {
+    match element {
+        spec::Element::Hex8 => CellKind::Hex8,
+        spec::Element::Tet4 => CellKind::Tet4,
     }
 }
 

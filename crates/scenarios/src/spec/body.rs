@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Axis;
+
 /// One deformable body: a mesh of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -10,12 +12,23 @@ pub struct Body {
     pub mesh: Mesh,
     /// Name of the material.
     pub material: String,
-    /// Initial velocity of all its nodes \[m/s\].
+    /// Initial velocity of the material at the origin, of all its nodes when it has no spin \[m/s\].
     #[serde(default)]
     pub velocity: [f64; 3],
+    /// Initial rate of rotation about the origin \[rad/s\]; adds `spin x X` to the velocity.
+    #[serde(default)]
+    pub spin: [f64; 3],
     /// The change of volume that the law sees: a choice for nearly incompressible matter.
     #[serde(default)]
     pub dilatation: Dilatation,
+}
+
+impl Body {
+    /// Initial velocity \[m/s\] of its node at `point` \[m\].
+    pub fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
+        let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
+        std::array::from_fn(|c| self.velocity[c] + turn((c + 1) % 3, (c + 2) % 3))
+    }
 }
 
 /// The change of volume that the law of an element sees.
@@ -84,6 +97,34 @@ pub enum Mesh {
         /// Element.
         #[serde(default)]
         element: PlaneElement,
+    },
+    /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
+    Grid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
+        /// Radius of curvature of the top at x = 0 \[m\]: `y_max` bends down by `x^2 / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
+    },
+    /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
+    SolidGrid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Lines along z.
+        z: Axis,
+        /// Element.
+        #[serde(default)]
+        element: Element,
+        /// Radius of curvature of the top at x = y = 0 \[m\]: `z_max` bends down by `(x^2 + y^2) / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
     },
     /// Disc. Set `rim`, node set `center` (the node nearest the centre).
     Disc {
@@ -166,6 +207,15 @@ pub enum PlaneElement {
     Tri3,
 }
 
+impl Element {
+    fn per_brick(self) -> f64 {
+        match self {
+            Element::Hex8 => 1.0,
+            Element::Tet4 => 6.0,
+        }
+    }
+}
+
 impl PlaneElement {
     fn per_quadrilateral(self) -> f64 {
         match self {
@@ -199,19 +249,23 @@ pub struct MeshSize {
 impl Mesh {
     /// True for a mesh in the x-y plane.
     pub fn is_plane(&self) -> bool {
-        !matches!(self, Mesh::Box { .. } | Mesh::HalfBall { .. })
+        !matches!(
+            self,
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. }
+        )
     }
 
     /// Counts of the mesh with each cell count multiplied by `refine`.
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
+        let lines = |axis: &Axis| axis.cells() * refine as f64;
         let (nodes, elements) = match self {
-            Mesh::Box { cells, element, .. } => {
-                let per_cell = match element {
-                    Element::Hex8 => 1.0,
-                    Element::Tet4 => 6.0,
-                };
-                lattice(&cells.map(fine), per_cell)
+            Mesh::Box { cells, element, .. } => lattice(&cells.map(fine), element.per_brick()),
+            Mesh::SolidGrid {
+                x, y, z, element, ..
+            } => lattice(&[x, y, z].map(lines), element.per_brick()),
+            Mesh::Grid { x, y, element, .. } => {
+                lattice(&[x, y].map(lines), element.per_quadrilateral())
             }
             Mesh::Rectangle { cells, element, .. } => {
                 lattice(&cells.map(fine), element.per_quadrilateral())
@@ -258,8 +312,12 @@ impl Mesh {
     /// Names of the node sets.
     pub fn node_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max", "all"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "all"]
+            }
             Mesh::Disc { .. } => &["rim", "center", "all"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base", "all"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis", "all"],
@@ -270,8 +328,10 @@ impl Mesh {
     /// Names of the facet sets.
     pub fn facet_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => &["x_min", "x_max", "y_min", "y_max"],
             Mesh::Disc { .. } => &["rim"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis"],

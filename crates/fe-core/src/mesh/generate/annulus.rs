@@ -1,7 +1,8 @@
 //! Rings.
 
+use super::axis::Run;
 use super::{
-    graded, name_side, require, require_cells, require_finite, require_indices, require_positive,
+    name_side, require, require_cells, require_finite, require_indices, require_positive,
     single_block,
 };
 use crate::error::MeshError;
@@ -34,7 +35,7 @@ impl AnnulusMesh {
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         self.check()?;
         let [around, through] = self.cells;
-        let radii = graded(self.inner, self.outer, through, self.grading);
+        let radii = Run::graded(self.inner, self.outer, through, self.grading).lines();
         let rim = |&radius: &f64| {
             (0..around).map(move |k| {
                 let d = direction(k, around);
