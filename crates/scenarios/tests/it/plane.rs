@@ -70,6 +70,14 @@ fn every_mesh_is_built_with_its_counts_and_sets() {
         "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, N))",
         "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up)",
         "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet4)",
+        "Rectangle(min: (0, 0), max: (1, 1), cells: (N, 2), element: Tri6)",
+        "Disc(center: (1, 0), radius: 1, cells: N, element: Quad9)",
+        "HalfDisc(center: (1, 0), radius: 1, cells: N, pole: Down, element: Tri6)",
+        "QuarterDisc(center: (0, 0), radius: 1, cells: N, pole: Up, element: Quad9)",
+        "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, N), element: Tri6)",
+        "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up, element: Hex27)",
+        "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet10)",
+        "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Hex27)",
     ];
     for mesh in meshes {
         let solid = mesh.starts_with("Box") || mesh.starts_with("HalfBall");

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::{check_grid, check_kind, graded};
 use crate::error::MeshError;
-use crate::mesh::{CellBlock, CellKind, Facet, Mesh, Symmetry};
+use crate::mesh::{CellBlock, CellKind, Facet, FacetKind, Mesh, Symmetry};
 
 /// A box of `cells[0] x cells[1] x cells[2]` bricks, each one hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
 /// `y_max`, `z_min`, `z_max` and the node set `all`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxMesh {
@@ -20,7 +20,7 @@ pub struct BoxMesh {
     pub cells: [usize; 3],
     /// Size of the last brick over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
     pub grading: [f64; 3],
-    /// [`CellKind::Hex8`] or [`CellKind::Tet4`].
+    /// A kind of solid cells.
     pub kind: CellKind,
 }
 
@@ -83,18 +83,22 @@ impl BoxMesh {
             node_sets.insert((*name).to_owned(), nodes);
             facet_sets.insert((*name).to_owned(), facets);
         }
-        Ok(Mesh {
+        let mesh = Mesh {
             dim: 3,
             symmetry: Symmetry::None,
             points,
             blocks: vec![CellBlock {
                 name: block.to_owned(),
-                kind: self.kind,
+                kind: self.kind.linear(),
                 cells: self.connectivity(),
             }],
             node_sets,
             facet_sets,
-        })
+        };
+        match self.kind.degree() {
+            1 => Ok(mesh),
+            _ => mesh.quadratic(),
+        }
     }
 
     /// The eight corners of a brick, VTK order.
@@ -121,7 +125,7 @@ impl BoxMesh {
             for j in 0..ny {
                 for i in 0..nx {
                     let brick = self.brick([i, j, k]);
-                    if self.kind == CellKind::Tet4 {
+                    if self.kind.linear() == CellKind::Tet4 {
                         cells.extend(TETRAHEDRA.iter().flatten().map(|&a| brick[a]));
                     } else {
                         cells.extend(brick);
@@ -155,7 +159,7 @@ impl BoxMesh {
 
     fn brick_facets(&self, brick: &[u32; 8], side: usize, facets: &mut Vec<Facet>) {
         let quad = CellKind::Hex8.facets()[side];
-        if self.kind == CellKind::Tet4 {
+        if self.kind.linear() == CellKind::Tet4 {
             // The split runs through node 0 or 6, whichever lies on this side.
             let hinge = if side.is_multiple_of(2) { 0 } else { 6 };
             let first = quad.iter().position(|&a| a == hinge).unwrap_or(0);
@@ -163,7 +167,7 @@ impl BoxMesh {
             facets.push(Facet::triangle([around(0), around(1), around(2)]));
             facets.push(Facet::triangle([around(0), around(2), around(3)]));
         } else {
-            facets.push(Facet::of_cell(brick, quad));
+            facets.push(Facet::of_cell(FacetKind::Quad4, brick, quad));
         }
     }
 }

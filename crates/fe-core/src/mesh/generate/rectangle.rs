@@ -1,12 +1,12 @@
 //! Rectangles.
 
-use super::{check_grid, check_kind, graded, name_side, single_block, triangles};
+use super::{check_grid, check_kind, graded, into_kind, name_side, single_block};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///
-/// Nodes are numbered with x fastest. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RectangleMesh {
     /// Lowest corner \[m\].
@@ -17,7 +17,7 @@ pub struct RectangleMesh {
     pub cells: [usize; 2],
     /// Size of the last cell over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
     pub grading: [f64; 2],
-    /// [`CellKind::Quad4`] or [`CellKind::Tri3`].
+    /// A kind of plane cells.
     pub kind: CellKind,
 }
 
@@ -56,18 +56,15 @@ impl RectangleMesh {
             [0, 1].map(|i| graded(self.min[i], self.max[i], self.cells[i], self.grading[i]));
         let row = |&y: &f64| xs.iter().map(move |&x| [x, y, 0.0]);
         let points: Vec<[f64; 3]> = ys.iter().flat_map(row).collect();
-        let mut cells = self.quads();
-        if self.kind == CellKind::Tri3 {
-            cells = triangles(&points, &cells);
-        }
-        let mut mesh = single_block(Symmetry::PlaneStrain, points, block, self.kind, cells);
+        let (quad, cells) = (CellKind::Quad4, self.quads());
+        let mut mesh = single_block(Symmetry::PlaneStrain, points, block, quad, cells);
         let boundary = mesh.boundary_facets();
         let [nx, ny] = self.cells;
         name_side(&mut mesh, &boundary, "x_min", |n| n % (nx + 1) == 0);
         name_side(&mut mesh, &boundary, "x_max", |n| n % (nx + 1) == nx);
         name_side(&mut mesh, &boundary, "y_min", |n| n / (nx + 1) == 0);
         name_side(&mut mesh, &boundary, "y_max", |n| n / (nx + 1) == ny);
-        Ok(mesh)
+        into_kind(mesh, self.kind, [0.0; 3], |_| false)
     }
 
     fn quads(&self) -> Vec<u32> {
