@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Outcome, root, tidy};
+use crate::{Outcome, regress, root, tidy};
 
 struct Step {
     name: &'static str,
@@ -69,5 +69,6 @@ pub(crate) fn run() -> Outcome {
         }
         println!("    {:.0} s", start.elapsed().as_secs_f64());
     }
-    Ok(())
+    println!("==> regress");
+    regress::run(&[], false)
 }

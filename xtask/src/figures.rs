@@ -2,7 +2,7 @@
 
 mod indentation;
 mod laws;
-mod measure;
+pub(crate) mod measure;
 mod page;
 mod plate_cylinder;
 mod runs;

@@ -5,6 +5,7 @@ mod ci;
 mod fclib;
 mod figures;
 mod precision;
+mod regress;
 mod tidy;
 
 use std::process::ExitCode;
@@ -35,11 +36,19 @@ enum Task {
         /// Folder of the problem files; $FCLIB_DIR or ../shared/fclib without it
         folder: Option<std::path::PathBuf>,
     },
-    /// Error against time, of the contact methods and of the scenes with adhesion: tables and pictures in
+    /// Error against time, of the contact methods and of the scenes with a reference: tables and pictures in
     /// docs/verification
     Precision {
-        /// All without it
-        studies: Vec<precision::Study>,
+        /// contact, or names of cases; all without a name
+        names: Vec<String>,
+    },
+    /// Every scene in a short form against stored results and counters
+    Regress {
+        /// Names of scenes; all without a name
+        names: Vec<String>,
+        /// Store what comes out now
+        #[arg(long)]
+        update: bool,
     },
     /// The figures of Hu2022: docs/verification/hu2022.md and what it leads to
     Figures {
@@ -53,7 +62,8 @@ fn main() -> ExitCode {
         Task::Ci => ci::run(),
         Task::Tidy => tidy::run(),
         Task::Fclib { folder } => fclib::run(folder),
-        Task::Precision { studies } => precision::run(&studies),
+        Task::Precision { names } => precision::run(&names),
+        Task::Regress { names, update } => regress::run(&names, update),
         Task::Figures { names } => figures::run(&names),
     };
     match outcome {

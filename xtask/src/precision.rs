@@ -1,29 +1,27 @@
-//! Which error for which time: of the contact methods, and of the scenes with adhesion.
+//! Which error for which time: of the contact methods, and of the scenes with a reference.
 
-mod adhesion;
+mod cases;
 mod contact;
-
-use clap::ValueEnum;
 
 use crate::Outcome;
 
-/// A study of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Study {
-    /// All methods on contact problems: `contact_precision.md` and its picture
-    Contact,
-    /// The scenes with adhesion on coarser and finer meshes and steps: `adhesion.md` and its picture
-    Adhesion,
-}
-
-/// Makes the named studies, or all.
-pub(crate) fn run(studies: &[Study]) -> Outcome {
-    let wanted = |study| studies.is_empty() || studies.contains(&study);
-    if wanted(Study::Contact) {
+/// Makes the named studies, or all: `contact`, and the cases of the package `verification` by name.
+pub(crate) fn run(names: &[String]) -> Outcome {
+    let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
+    let known: Vec<&str> = std::iter::once("contact")
+        .chain(verification::cases::all().iter().map(|case| case.name))
+        .collect();
+    if let Some(unknown) = names.iter().find(|n| !known.contains(&n.as_str())) {
+        return Err(format!(
+            "no study `{unknown}`; there are {}",
+            known.join(", ")
+        ));
+    }
+    if wanted("contact") {
         contact::run()?;
     }
-    if wanted(Study::Adhesion) {
-        adhesion::run()?;
-    }
-    Ok(())
+    let cases = verification::cases::all().into_iter();
+    cases
+        .filter(|case| wanted(case.name))
+        .try_for_each(|case| cases::study(&case))
 }

@@ -34,8 +34,8 @@ pub use element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 pub use error::{FeError, MeshError};
 pub use mass::MassMatrix;
 pub use mesh::generate::{
-    AnnulusMesh, BoxMesh, DiscMesh, HalfBallMesh, HalfDiscMesh, Pole, QuarterDiscMesh,
-    RectangleMesh,
+    AnnulusMesh, BoxMesh, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh, HalfDiscMesh,
+    Pole, QuarterDiscMesh, RectangleMesh,
 };
 pub use mesh::{CellBlock, CellKind, Facet, FacetKind, Mesh, Symmetry};
 pub use motion::{Interpolation, Motion, Rotation, Table};

@@ -46,7 +46,8 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
     let mut velocity = vec![0.0; solid.dof_count()];
     for (k, body) in scene.bodies.values().enumerate() {
         for node in first_node[k]..first_node[k + 1] {
-            velocity[dim * node..dim * (node + 1)].copy_from_slice(&body.velocity[..dim]);
+            let start = body.velocity_at(solid.mesh().points[node]);
+            velocity[dim * node..dim * (node + 1)].copy_from_slice(&start[..dim]);
         }
     }
     let model = Model {
@@ -283,6 +284,15 @@ fn shape(master: &spec::Master) -> Shape {
             apex,
             axis,
             semi_apex_angle: semi_apex_angle.to_radians(),
+        },
+        spec::Master::Punch {
+            center,
+            axis,
+            radius,
+        } => Shape::Punch {
+            center,
+            axis,
+            radius,
         },
         spec::Master::Plane { point, normal } => Shape::Plane { point, normal },
         spec::Master::Facets(_) => Shape::Plane {

@@ -24,6 +24,22 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/bar-impact.ron"),
     },
     Entry {
+        name: "bar-on-bar",
+        text: include_str!("../scenes/bar-on-bar.ron"),
+    },
+    Entry {
+        name: "sliding-block",
+        text: include_str!("../scenes/sliding-block.ron"),
+    },
+    Entry {
+        name: "bouncing-block",
+        text: include_str!("../scenes/bouncing-block.ron"),
+    },
+    Entry {
+        name: "free-body",
+        text: include_str!("../scenes/free-body.ron"),
+    },
+    Entry {
         name: "press-twist",
         text: include_str!("../scenes/press-twist.ron"),
     },
@@ -54,6 +70,38 @@ pub const SCENES: &[Entry] = &[
     Entry {
         name: "debonding",
         text: include_str!("../scenes/debonding.ron"),
+    },
+    Entry {
+        name: "cone",
+        text: include_str!("../scenes/cone.ron"),
+    },
+    Entry {
+        name: "flat-punch",
+        text: include_str!("../scenes/flat-punch.ron"),
+    },
+    Entry {
+        name: "hertz-sphere",
+        text: include_str!("../scenes/hertz-sphere.ron"),
+    },
+    Entry {
+        name: "hertz-cylinder",
+        text: include_str!("../scenes/hertz-cylinder.ron"),
+    },
+    Entry {
+        name: "hertz-ball",
+        text: include_str!("../scenes/hertz-ball.ron"),
+    },
+    Entry {
+        name: "contact-patch",
+        text: include_str!("../scenes/contact-patch.ron"),
+    },
+    Entry {
+        name: "mindlin-cylinder",
+        text: include_str!("../scenes/mindlin-cylinder.ron"),
+    },
+    Entry {
+        name: "mindlin-sphere",
+        text: include_str!("../scenes/mindlin-sphere.ron"),
     },
 ];
 

@@ -10,6 +10,7 @@
 mod body;
 mod check;
 mod error;
+mod grid;
 mod interface;
 mod load;
 mod locate;
@@ -22,6 +23,7 @@ mod time;
 
 pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Pole, Symmetry};
 pub use error::{Fault, SceneError};
+pub use grid::{Axis, Piece};
 pub use interface::{Adhesion, Healing, Interface, Master, Reference, Stiffness, Update};
 pub use load::{LoadedScene, Source, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};

@@ -431,7 +431,9 @@ fn thick_tube_and_thick_ball_under_pressure_converge_with_the_degree() {
             ],
         };
         for (kind, n) in PLANE_KINDS {
-            wrong += &problem.check(kind, n);
+            // Triangles are slower to settle.
+            let twice = kind == CellKind::Tri6;
+            wrong += &problem.check(kind, if twice { 2 * n } else { n });
         }
     }
     assert!(wrong.is_empty(), "{wrong}");

@@ -29,7 +29,7 @@ pub(super) fn integral(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// A number with `digits` that count, as text.
-pub(super) fn digits(value: f64, digits: usize) -> String {
+pub(crate) fn digits(value: f64, digits: usize) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }

@@ -6,7 +6,7 @@ use scenarios::output::{Axis, charts_svg};
 
 use super::Figure;
 use super::measure::{digits, first_below_after_peak, milliseconds, peak};
-use super::runs::{Planned, Ran, curve_each, over_time};
+use super::runs::{Planned, Ran, Shown, curve_each, over_time};
 
 /// Times of descent \[ms\]: 1000, 500, 333, 250 and 200 mm/s over 1 mm. Case 1 is the first.
 const DESCENTS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];

@@ -10,7 +10,7 @@ const NODE: &str = "pole";
 const EPSILON: f64 = 1e-4;
 
 pub(super) fn runs() -> Vec<Planned> {
-    vec![Planned::new("debonding", "debonding", &[])]
+    vec![Planned::new("debonding", "debonding", [""; 0])]
 }
 
 pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {

@@ -6,7 +6,7 @@ use scenarios::output::{Axis, Chart, Curve, charts_svg};
 
 use super::Figure;
 use super::measure::{digits, first_above, first_below_after_peak, milliseconds, peak};
-use super::runs::{Planned, Ran, curve_each, over_time};
+use super::runs::{Planned, Ran, Shown, curve_each, over_time};
 
 /// Shear moduli \[Pa\]; the shapes and the three nodes are those of the second.
 const MODULI: [f64; 3] = [5e6, 1e7, 1.5e7];
@@ -75,7 +75,8 @@ pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {
 }
 
 fn nodes(run: &Ran) -> Result<Vec<Curve>, String> {
-    let one = |node: &&str| run.curve(&format!("node {node}"), "t", &format!("probe.{node}.beta"));
+    let one =
+        |node: &&str| run.named_curve(&format!("node {node}"), "t", &format!("probe.{node}.beta"));
     NODES.iter().map(one).collect()
 }
 

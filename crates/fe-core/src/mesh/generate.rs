@@ -4,15 +4,19 @@
 //! meshes are made for plane strain; set [`Mesh::symmetry`] for an axisymmetric body.
 
 mod annulus;
+mod axis;
 mod box_mesh;
 mod disc;
+mod grid;
 mod half_ball;
 mod o_grid;
 mod rectangle;
 
 pub use annulus::AnnulusMesh;
+pub use axis::{GridAxis, GridPiece};
 pub use box_mesh::BoxMesh;
 pub use disc::{DiscMesh, HalfDiscMesh, QuarterDiscMesh};
+pub use grid::GridMesh;
 pub use half_ball::HalfBallMesh;
 pub use rectangle::RectangleMesh;
 
@@ -98,27 +102,6 @@ fn check_kind(block: &str, kind: CellKind, dim: usize) -> Result<(), MeshError> 
     })
 }
 
-/// Grid lines from `min` to `max` \[m\]; sizes grow geometrically, `grading` is that of the last cell over that of the
-/// first.
-fn graded(min: f64, max: f64, cells: usize, grading: f64) -> Vec<f64> {
-    let log_ratio = grading.ln() / (cells.max(2) - 1) as f64;
-    let fraction = |k: usize| {
-        if log_ratio == 0.0 {
-            k as f64 / cells as f64
-        } else {
-            (k as f64 * log_ratio).exp_m1() / (cells as f64 * log_ratio).exp_m1()
-        }
-    };
-    let line = |k: usize| {
-        if k == cells {
-            max
-        } else {
-            min + (max - min) * fraction(k)
-        }
-    };
-    (0..=cells).map(line).collect()
-}
-
 /// A mesh of one block with the node set `all`.
 fn single_block(
     symmetry: Symmetry,
@@ -191,6 +174,14 @@ fn into_kind(
         let direction = unit(&minus(&x, &center));
         std::array::from_fn(|i| center[i] + mean * direction[i])
     })
+}
+
+/// The mesh, or that of quadratic cells with straight edges.
+fn of_degree(degree: usize, mesh: Mesh) -> Result<Mesh, MeshError> {
+    match degree {
+        1 => Ok(mesh),
+        _ => mesh.quadratic(),
+    }
 }
 
 /// Cuts quadrilaterals along their shorter diagonal into triangles.

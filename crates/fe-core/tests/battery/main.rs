@@ -5,6 +5,7 @@
 mod assembly;
 mod blocks;
 mod common;
+mod grids;
 mod loads;
 mod meshes;
 mod plane;

@@ -1,8 +1,8 @@
 //! Meshes of the bodies of a scene.
 
 use fe_core::{
-    AnnulusMesh, BoxMesh, CellKind, DiscMesh, HalfBallMesh, HalfDiscMesh, Mesh, MeshError, Pole,
-    QuarterDiscMesh, RectangleMesh, Symmetry,
+    AnnulusMesh, BoxMesh, CellKind, DiscMesh, GridMesh, HalfBallMesh, HalfDiscMesh, Mesh,
+    MeshError, Pole, QuarterDiscMesh, RectangleMesh, Symmetry,
 };
 
 use crate::spec::{self, LoadedScene, SceneError};
@@ -27,6 +27,39 @@ pub(super) fn mesh(loaded: &LoadedScene) -> Result<(Mesh, Vec<usize>), SceneErro
 fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshError> {
     let fine = |cells: usize| cells * refine;
     match *mesh {
+        spec::Mesh::Grid {
+            ref x,
+            ref y,
+            element,
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: plane_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
+        }
+        spec::Mesh::SolidGrid {
+            ref x,
+            ref y,
+            ref z,
+            element,
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y, z].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: solid_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
+        }
         spec::Mesh::Box {
             min,
             max,

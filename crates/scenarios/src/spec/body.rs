@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Axis;
+
 /// One deformable body: a mesh of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -10,9 +12,20 @@ pub struct Body {
     pub mesh: Mesh,
     /// Name of the material.
     pub material: String,
-    /// Initial velocity of all its nodes \[m/s\].
+    /// Initial velocity of the material at the origin, of all its nodes when it has no spin \[m/s\].
     #[serde(default)]
     pub velocity: [f64; 3],
+    /// Initial rate of rotation about the origin \[rad/s\]; adds `spin x X` to the velocity.
+    #[serde(default)]
+    pub spin: [f64; 3],
+}
+
+impl Body {
+    /// Initial velocity \[m/s\] of its node at `point` \[m\].
+    pub fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
+        let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
+        std::array::from_fn(|c| self.velocity[c] + turn((c + 1) % 3, (c + 2) % 3))
+    }
 }
 
 /// What the third direction of a plane scene is like.
@@ -73,6 +86,34 @@ pub enum Mesh {
         /// Element.
         #[serde(default)]
         element: PlaneElement,
+    },
+    /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
+    Grid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
+        /// Radius of curvature of the top at x = 0 \[m\]: `y_max` bends down by `x^2 / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
+    },
+    /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
+    SolidGrid {
+        /// Lines along x.
+        x: Axis,
+        /// Lines along y.
+        y: Axis,
+        /// Lines along z.
+        z: Axis,
+        /// Element.
+        #[serde(default)]
+        element: Element,
+        /// Radius of curvature of the top at x = y = 0 \[m\]: `z_max` bends down by `(x^2 + y^2) / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
     },
     /// Disc. Set `rim`, node set `center` (the node nearest the centre).
     Disc {
@@ -196,15 +237,21 @@ pub struct MeshSize {
 impl Mesh {
     /// True for a mesh in the x-y plane.
     pub fn is_plane(&self) -> bool {
-        !matches!(self, Mesh::Box { .. } | Mesh::HalfBall { .. })
+        !matches!(
+            self,
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. }
+        )
     }
 
     /// Counts of the mesh with each cell count multiplied by `refine`.
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
         let half = |n: usize| (0.5 * fine(n)).ceil();
+        let lines = |axis: &Axis| axis.cells() * refine as f64;
         let (corners, cells) = match self {
             Mesh::Box { cells, .. } => lattice(&cells.map(fine)),
+            Mesh::SolidGrid { x, y, z, .. } => lattice(&[x, y, z].map(lines)),
+            Mesh::Grid { x, y, .. } => lattice(&[x, y].map(lines)),
             Mesh::Rectangle { cells, .. } => lattice(&cells.map(fine)),
             Mesh::Annulus { cells, .. } => {
                 let [around, through] = cells.map(fine);
@@ -231,15 +278,14 @@ impl Mesh {
             }
         };
         // Quadratic cells have a node for each edge, face and cell too; Euler's formula counts them.
+        let outside = |[a, b, c]: [f64; 3]| 2.0 * (a * b + b * c + c * a);
+        let around = |faces: f64| corners + 6.0 * cells + faces - 1.0;
         let between = match self {
-            Mesh::Box { cells, .. } => {
-                let [a, b, c] = cells.map(fine);
-                corners + 6.0 * (a * b * c) + 2.0 * (a * b + b * c + c * a) - 1.0
-            }
-            Mesh::HalfBall { cells: n, .. } => {
-                let h = half(*n);
-                let base = 4.0 * h * h + 8.0 * h * layers(2.0 * h);
-                corners + 6.0 * cells + 12.0 * h * h + base - 1.0
+            Mesh::Box { cells, .. } => around(outside(cells.map(fine))),
+            Mesh::SolidGrid { x, y, z, .. } => around(outside([x, y, z].map(lines))),
+            Mesh::HalfBall { cells, .. } => {
+                let h = half(*cells);
+                around(16.0 * h * h + 8.0 * h * layers(2.0 * h))
             }
             Mesh::Annulus { .. } => corners + 2.0 * cells,
             _ => corners + 2.0 * cells - 1.0,
@@ -257,13 +303,16 @@ impl Mesh {
     /// Elements a quadrilateral or hexahedron of the mesh, and whether they are quadratic.
     fn element(&self) -> (f64, bool) {
         match self {
-            Mesh::Box { element, .. } | Mesh::HalfBall { element, .. } => match element {
+            Mesh::Box { element, .. }
+            | Mesh::SolidGrid { element, .. }
+            | Mesh::HalfBall { element, .. } => match element {
                 Element::Hex8 => (1.0, false),
                 Element::Tet4 => (6.0, false),
                 Element::Hex27 => (1.0, true),
                 Element::Tet10 => (6.0, true),
             },
             Mesh::Rectangle { element, .. }
+            | Mesh::Grid { element, .. }
             | Mesh::Disc { element, .. }
             | Mesh::HalfDisc { element, .. }
             | Mesh::QuarterDisc { element, .. }
@@ -279,8 +328,12 @@ impl Mesh {
     /// Names of the node sets.
     pub fn node_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max", "all"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max", "all"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "all"]
+            }
             Mesh::Disc { .. } => &["rim", "center", "all"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base", "all"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis", "all"],
@@ -291,8 +344,10 @@ impl Mesh {
     /// Names of the facet sets.
     pub fn facet_sets(&self) -> &'static [&'static str] {
         match self {
-            Mesh::Box { .. } => &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"],
-            Mesh::Rectangle { .. } => &["x_min", "x_max", "y_min", "y_max"],
+            Mesh::Box { .. } | Mesh::SolidGrid { .. } => {
+                &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"]
+            }
+            Mesh::Rectangle { .. } | Mesh::Grid { .. } => &["x_min", "x_max", "y_min", "y_max"],
             Mesh::Disc { .. } => &["rim"],
             Mesh::HalfDisc { .. } | Mesh::HalfBall { .. } => &["dome", "base"],
             Mesh::QuarterDisc { .. } => &["dome", "base", "axis"],

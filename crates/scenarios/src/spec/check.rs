@@ -200,14 +200,13 @@ impl Checker<'_> {
                 "material",
                 &format!("{path}.material"),
             );
-            self.finite(&body.velocity, &format!("{path}.velocity"));
-            let moves = body.velocity.iter().any(|v| *v != 0.0);
-            let at_rest = self.scene.time.inertia == Inertia::Dynamic || !moves;
-            self.require(
-                at_rest,
-                &format!("{path}.velocity"),
-                "must be zero in a QuasiStatic scene",
-            );
+            for (field, value) in [("velocity", body.velocity), ("spin", body.spin)] {
+                let path = format!("{path}.{field}");
+                self.finite(&value, &path);
+                let moves = value.iter().any(|v| *v != 0.0);
+                let at_rest = self.scene.time.inertia == Inertia::Dynamic || !moves;
+                self.require(at_rest, &path, "must be zero in a QuasiStatic scene");
+            }
             self.mesh(&body.mesh, &format!("{path}.mesh"));
         }
     }

@@ -78,9 +78,19 @@ fn every_mesh_is_built_with_its_counts_and_sets() {
         "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up, element: Hex27)",
         "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet10)",
         "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Hex27)",
+        "Grid(x: (from: 0, pieces: [Cells(to: 1, cells: N), Growing(to: 9, growth: 1.3)]), \
+            y: (from: 0, pieces: [Cells(to: -1, cells: 2, grading: 3)]), element: Tri3)",
+        "SolidGrid(x: (from: 0, pieces: [Cells(to: 1, cells: 1)]), y: (from: 0, pieces: [Cells(to: 1, cells: 2)]), \
+            z: (from: 0, pieces: [Cells(to: -1, cells: N), Growing(to: -4, growth: 2)]))",
+        "Grid(x: (from: 0, pieces: [Cells(to: 1, cells: N), Growing(to: 9, growth: 1.3)]), \
+            y: (from: 0, pieces: [Cells(to: -1, cells: 2, grading: 3)]), element: Quad9)",
+        "SolidGrid(x: (from: 0, pieces: [Cells(to: 1, cells: 1)]), y: (from: 0, pieces: [Cells(to: 1, cells: 2)]), \
+            z: (from: 0, pieces: [Cells(to: -1, cells: N), Growing(to: -4, growth: 2)]), element: Tet10)",
     ];
     for mesh in meshes {
-        let solid = mesh.starts_with("Box") || mesh.starts_with("HalfBall");
+        let solid = ["Box", "HalfBall", "SolidGrid"]
+            .iter()
+            .any(|name| mesh.starts_with(name));
         let symmetries = if solid {
             &["None"][..]
         } else {
@@ -239,6 +249,45 @@ fn plane_and_solid_bodies_are_not_mixed() {
 }
 
 #[test]
+fn axes_of_grids_are_checked_piece_by_piece() {
+    let plate = "Rectangle(min: (0, 2), max: (4, 3), cells: (8, 2))";
+    let grid = |x: &str| format!("Grid(x: {x}, y: (from: 2, pieces: [Cells(to: 3, cells: 2)]))");
+    let start = "Cells(to: 1, cells: 4)";
+    let good = grid(&format!(
+        "(from: 0, pieces: [{start}, Growing(to: 4, growth: 1.2)])"
+    ));
+    changed(plate, &good).unwrap();
+    let cases: &[(&str, &str, &[&str])] = &[
+        ("Growing(to: 4, growth: 0.9)", "1.growth", &["1 or more"]),
+        (
+            "Growing(to: 0.5, growth: 1.2)",
+            "1.to",
+            &["1 [m]", "same way"],
+        ),
+        ("Cells(to: 4, cells: 0)", "1.cells", &["1 or more"]),
+        (
+            "Cells(to: 4, cells: 2, grading: 0)",
+            "1.grading",
+            &["greater than 0"],
+        ),
+        ("Cells(to: 1, cells: 2)", "1.to", &["must differ"]),
+    ];
+    for (piece, path, words) in cases {
+        let mesh = grid(&format!("(from: 0, pieces: [{start}, {piece}])"));
+        refused(
+            plate,
+            &mesh,
+            &format!("bodies.plate.mesh.x.pieces.{path}"),
+            words,
+        );
+    }
+    let path = "bodies.plate.mesh.x.pieces";
+    let first = grid("(from: 0, pieces: [Growing(to: 4, growth: 1.2)])");
+    refused(plate, &first, &format!("{path}.0"), &["begin with Cells"]);
+    refused(plate, &grid("(from: 0, pieces: [])"), path, &["a piece"]);
+}
+
+#[test]
 fn nothing_leaves_the_plane() {
     let cases: &[(&str, &str, &str, &[&str])] = &[
         (
@@ -246,6 +295,12 @@ fn nothing_leaves_the_plane() {
             "(1, 0, 2))",
             "bodies.wheel.velocity.2",
             &["no z"],
+        ),
+        (
+            "(1, 0, 0))",
+            "(1, 0, 0), spin: (0, 1, 0))",
+            "bodies.wheel.spin",
+            &["along z"],
         ),
         (
             "-0.1)], 0)",
@@ -281,6 +336,12 @@ fn nothing_leaves_the_plane() {
         (
             "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
             "Cylinder(point: (0, 0, 0), axis: (1, 0, 1), radius: 1)",
+            "interfaces.ground.master.axis.2",
+            &["no z"],
+        ),
+        (
+            "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
+            "Punch(center: (0, 0, 0), axis: (0, 1, 1), radius: 1)",
             "interfaces.ground.master.axis.2",
             &["no z"],
         ),

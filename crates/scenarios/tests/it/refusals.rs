@@ -188,6 +188,13 @@ fn impossible_values_are_refused_with_their_place() {
             &["finite"],
         ),
         (
+            "material: \"rubber\"",
+            "material: \"rubber\", spin: (0, inf, 0)",
+            "(0, inf",
+            "bodies.block.spin",
+            &["finite"],
+        ),
+        (
             "time: (",
             "output: (plots: [Energy, Force(\"no\")]), time: (",
             "Force",

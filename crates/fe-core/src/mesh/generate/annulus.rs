@@ -1,8 +1,9 @@
 //! Rings.
 
+use super::axis::Run;
 use super::{
-    check_kind, graded, into_kind, name_side, require, require_cells, require_finite,
-    require_indices, require_positive, single_block,
+    check_kind, into_kind, name_side, require, require_cells, require_finite, require_indices,
+    require_positive, single_block,
 };
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
@@ -38,7 +39,7 @@ impl AnnulusMesh {
         check_kind(block, self.kind, 2)?;
         self.check()?;
         let [around, through] = self.cells;
-        let radii = graded(self.inner, self.outer, through, self.grading);
+        let radii = Run::graded(self.inner, self.outer, through, self.grading).lines();
         let rim = |&radius: &f64| {
             (0..around).map(move |k| {
                 let d = direction(k, around);

@@ -1,8 +1,10 @@
 //! Rectangles.
 
-use super::{check_grid, check_kind, graded, into_kind, name_side, single_block};
+use super::axis::GridAxis;
+use super::grid::GridMesh;
+use super::{check_grid, check_kind};
 use crate::error::MeshError;
-use crate::mesh::{CellKind, Mesh, Symmetry};
+use crate::mesh::{CellKind, Mesh};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///
@@ -52,34 +54,12 @@ impl RectangleMesh {
             &self.cells,
             &self.grading,
         )?;
-        let [xs, ys] =
-            [0, 1].map(|i| graded(self.min[i], self.max[i], self.cells[i], self.grading[i]));
-        let row = |&y: &f64| xs.iter().map(move |&x| [x, y, 0.0]);
-        let points: Vec<[f64; 3]> = ys.iter().flat_map(row).collect();
-        let (quad, cells) = (CellKind::Quad4, self.quads());
-        let mut mesh = single_block(Symmetry::PlaneStrain, points, block, quad, cells);
-        let boundary = mesh.boundary_facets();
-        let [nx, ny] = self.cells;
-        name_side(&mut mesh, &boundary, "x_min", |n| n % (nx + 1) == 0);
-        name_side(&mut mesh, &boundary, "x_max", |n| n % (nx + 1) == nx);
-        name_side(&mut mesh, &boundary, "y_min", |n| n / (nx + 1) == 0);
-        name_side(&mut mesh, &boundary, "y_max", |n| n / (nx + 1) == ny);
-        into_kind(mesh, self.kind, [0.0; 3], |_| false)
-    }
-
-    fn quads(&self) -> Vec<u32> {
-        let [nx, ny] = self.cells;
-        let node = |i: usize, j: usize| (i + (nx + 1) * j) as u32;
-        let quad = |i, j| {
-            [
-                node(i, j),
-                node(i + 1, j),
-                node(i + 1, j + 1),
-                node(i, j + 1),
-            ]
+        let axis = |i| GridAxis::graded(self.min[i], self.max[i], self.cells[i], self.grading[i]);
+        let grid = GridMesh {
+            axes: (0..2).map(axis).collect(),
+            refine: 1,
+            kind: self.kind,
         };
-        (0..ny)
-            .flat_map(|j| (0..nx).flat_map(move |i| quad(i, j)))
-            .collect()
+        grid.generate(block)
     }
 }

@@ -1,7 +1,7 @@
 //! Meshes of bodies.
 
 use super::{Checker, MAX_NODES};
-use crate::spec::{Element, Mesh};
+use crate::spec::{Axis, Element, Mesh, Piece};
 
 impl Checker<'_> {
     pub(super) fn mesh(&mut self, mesh: &Mesh, path: &str) {
@@ -20,6 +20,17 @@ impl Checker<'_> {
                 grading,
                 ..
             } => self.lattice(min, max, cells, grading, path),
+            Mesh::Grid { x, y, crown, .. } => {
+                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
+                self.axis(x, &format!("{path}.x"));
+                self.axis(y, &format!("{path}.y"));
+            }
+            Mesh::SolidGrid { x, y, z, crown, .. } => {
+                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
+                self.axis(x, &format!("{path}.x"));
+                self.axis(y, &format!("{path}.y"));
+                self.axis(z, &format!("{path}.z"));
+            }
             Mesh::HalfBall {
                 center,
                 radius,
@@ -88,6 +99,40 @@ impl Checker<'_> {
             self.require(larger, &format!("{path}.max.{i}"), message);
             self.cells(cells[i], 1, &format!("{path}.cells.{i}"));
             self.positive(grading[i], &format!("{path}.grading.{i}"), "-");
+        }
+    }
+
+    fn axis(&mut self, axis: &Axis, path: &str) {
+        self.finite(&[axis.from], &format!("{path}.from"));
+        let path = format!("{path}.pieces");
+        self.require(!axis.pieces.is_empty(), &path, "must hold a piece");
+        let ends = axis.grid_axis().pieces;
+        let way = ends
+            .first()
+            .map_or(1.0, |piece| (piece.to() - axis.from).signum());
+        let mut from = axis.from;
+        for (i, piece) in axis.pieces.iter().enumerate() {
+            let path = format!("{path}.{i}");
+            let to = ends[i].to();
+            let ahead = to.is_finite() && way * (to - from) > 0.0;
+            let message = format!(
+                "must differ from the end of the piece before, {from} [m], and all pieces must go the same way"
+            );
+            self.require(ahead, &format!("{path}.to"), message);
+            from = to;
+            match *piece {
+                Piece::Cells { cells, grading, .. } => {
+                    self.cells(cells, 1, &format!("{path}.cells"));
+                    self.positive(grading, &format!("{path}.grading"), "-");
+                }
+                Piece::Growing { growth, .. } => {
+                    let allowed = growth.is_finite() && growth >= 1.0;
+                    self.require(allowed, &format!("{path}.growth"), "must be 1 or more [-]");
+                    let message =
+                        "has no piece before whose cells it could continue; begin with Cells";
+                    self.require(i > 0, &path, message);
+                }
+            }
         }
     }
 

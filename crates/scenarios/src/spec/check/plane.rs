@@ -56,6 +56,16 @@ impl Checker<'_> {
         let scene = self.scene;
         for (name, body) in &scene.bodies {
             self.flat(body.velocity, &format!("bodies.{name}.velocity"), "m/s");
+            let [x, y, z] = body.spin;
+            let (path, fine) = (format!("bodies.{name}.spin"), x == 0.0 && y == 0.0);
+            self.require(
+                fine,
+                &path,
+                "must be along z: a plane scene turns in its plane",
+            );
+            let fine = !self.axisymmetric() || z == 0.0;
+            let message = "must be 0 [rad/s]: an axisymmetric body cannot turn out of its symmetry";
+            self.require(fine, &path, message);
             let left = leftmost(&body.mesh);
             let message = format!(
                 "reaches to x = {left} [m]; in an axisymmetric scene x is the radius, 0 or more"
@@ -138,6 +148,10 @@ impl Checker<'_> {
                         self.flat(*point, &format!("{master}.point"), "m");
                     }
                 }
+                Master::Punch { center, axis, .. } => {
+                    self.flat(*center, &format!("{master}.center"), "m");
+                    self.flat(*axis, &format!("{master}.axis"), "-");
+                }
                 Master::Cone { apex, axis, .. } => {
                     self.flat(*apex, &format!("{master}.apex"), "m");
                     self.flat(*axis, &format!("{master}.axis"), "-");
@@ -167,11 +181,12 @@ fn is_zero(table: &Table) -> bool {
 fn leftmost(mesh: &Mesh) -> f64 {
     match mesh {
         Mesh::Rectangle { min, .. } => min[0],
+        Mesh::Grid { x, .. } => x.min(),
         Mesh::Disc { center, radius, .. } | Mesh::HalfDisc { center, radius, .. } => {
             center[0] - radius
         }
         Mesh::QuarterDisc { center, .. } => center[0],
         Mesh::Annulus { center, outer, .. } => center[0] - outer,
-        Mesh::Box { .. } | Mesh::HalfBall { .. } => 0.0,
+        Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. } => 0.0,
     }
 }

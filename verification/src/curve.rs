@@ -1,10 +1,10 @@
 //! Numbers of a curve that the grid of the steps does not quantise.
 
 /// Times, increasing, and values.
-pub(super) type Curve = Vec<(f64, f64)>;
+pub type Curve = Vec<(f64, f64)>;
 
 /// Time and value of the largest value, on the parabola through it and its neighbours.
-pub(super) fn peak(curve: &[(f64, f64)]) -> Option<(f64, f64)> {
+pub fn peak(curve: &[(f64, f64)]) -> Option<(f64, f64)> {
     let largest = |best: usize, k: usize| if curve[k].1 > curve[best].1 { k } else { best };
     let k = (0..curve.len()).reduce(largest)?;
     let Some(&[a, b, c]) = k.checked_sub(1).and_then(|first| curve.get(first..k + 2)) else {
@@ -20,7 +20,7 @@ pub(super) fn peak(curve: &[(f64, f64)]) -> Option<(f64, f64)> {
 }
 
 /// When the curve last falls below a level, on the line between two steps.
-pub(super) fn falls_below(curve: &[(f64, f64)], level: f64) -> Option<f64> {
+pub fn falls_below(curve: &[(f64, f64)], level: f64) -> Option<f64> {
     let pair = curve
         .windows(2)
         .rfind(|p| p[0].1 >= level && p[1].1 < level)?;
@@ -28,7 +28,7 @@ pub(super) fn falls_below(curve: &[(f64, f64)], level: f64) -> Option<f64> {
 }
 
 /// Mean between the first and the last time.
-pub(super) fn mean(curve: &[(f64, f64)]) -> Option<f64> {
+pub fn mean(curve: &[(f64, f64)]) -> Option<f64> {
     let span = curve.last()?.0 - curve.first()?.0;
     let area = curve
         .windows(2)

@@ -1,0 +1,15 @@
+//! What is known about the scenes from elsewhere, and how far the program is from it.
+//!
+//! [`closed_form`] holds the formulas, [`run`] computes scenes in memory, a [`Case`] compares the two over meshes, steps
+//! and schemes. The tests assert bounds and slopes of cases, `cargo xtask precision` draws them over the time they cost.
+
+pub mod case;
+pub mod cases;
+pub mod closed_form;
+pub mod curve;
+pub mod run;
+pub mod short;
+pub mod traction;
+
+pub use case::{Case, Found, Ladder, Measured, Rung, slope};
+pub use run::{Plan, Ran, compute, compute_all};

@@ -1,0 +1,100 @@
+//! Every scene in a short form against stored results and counters: a slower or less accurate algorithm fails.
+
+mod record;
+
+use verification::short::short_forms;
+use verification::{Plan, Ran, compute_all};
+
+use crate::{Outcome, root};
+use record::Record;
+
+/// Runs the named scenes, or all, and compares them with `verification/regress`; `update` writes the records instead.
+///
+/// # Errors
+/// What differs, scene by scene.
+pub(crate) fn run(names: &[String], update: bool) -> Outcome {
+    let forms = short_forms().into_iter();
+    let plans: Vec<Plan> = forms
+        .filter(|plan| names.is_empty() || names.contains(&plan.scene))
+        .collect();
+    if plans.is_empty() {
+        return Err(format!("no scene is called {}", names.join(", ")));
+    }
+    let runs = compute_all(plans, &|_| ());
+    let mut failures = Vec::new();
+    for run in runs {
+        let ran = run?.completed()?;
+        let cpu = ran.summary.cpu_s;
+        if update {
+            store(&ran)?;
+            println!("{}: {cpu:.2} s CPU, stored", ran.plan.scene);
+            continue;
+        }
+        let findings = compare(&ran)?;
+        println!("{}: {cpu:.2} s CPU, {}", ran.plan.scene, findings.word());
+        failures.extend(
+            findings
+                .failures
+                .into_iter()
+                .map(|f| format!("{}: {f}", ran.plan.scene)),
+        );
+    }
+    if failures.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{}\nIf this is meant, `cargo xtask regress --update` stores the new results; say why in the message of the commit.",
+        failures.join("\n")
+    ))
+}
+
+/// What a comparison found.
+#[derive(Debug, Default)]
+struct Findings {
+    /// Numbers that differ, counters that grew.
+    failures: Vec<String>,
+    /// Counters that shrank.
+    gains: Vec<String>,
+    /// Columns and counters compared.
+    compared: usize,
+}
+
+impl Findings {
+    fn word(&self) -> String {
+        match (self.failures.len(), self.gains.is_empty()) {
+            (0, true) => format!("{} numbers as stored", self.compared),
+            (0, false) => format!("fewer {}: store this", self.gains.join(", ")),
+            (n, _) => format!("{n} differences"),
+        }
+    }
+}
+
+fn path(scene: &str) -> std::path::PathBuf {
+    root()
+        .join("verification/regress")
+        .join(format!("{scene}.json"))
+}
+
+fn store(ran: &Ran) -> Outcome {
+    let path = path(&ran.plan.scene);
+    let mut text = serde_json::to_string_pretty(&Record::of(ran)?).map_err(|e| e.to_string())?;
+    text.push('\n');
+    let folder = path.parent().unwrap_or(&path);
+    std::fs::create_dir_all(folder)
+        .and_then(|()| std::fs::write(&path, text))
+        .map_err(|e| format!("{}: {e}", path.display()))
+}
+
+fn compare(ran: &Ran) -> Result<Findings, String> {
+    let path = path(&ran.plan.scene);
+    let told = |e: &dyn std::fmt::Display| {
+        format!(
+            "{}: {e}; `cargo xtask regress --update {}` writes it",
+            path.display(),
+            ran.plan.scene
+        )
+    };
+    let text = std::fs::read_to_string(&path).map_err(|e| told(&e))?;
+    let stored: Record = serde_json::from_str(&text).map_err(|e| told(&e))?;
+    Ok(stored.compare(&Record::of(ran)?))
+}
