@@ -2,8 +2,12 @@
 
 pub mod bar;
 pub mod block;
+pub mod contact_patch;
+pub mod first_light;
 pub mod free_body;
+pub mod hertz;
 pub mod hu2022;
+pub mod mindlin;
 
 use crate::Case;
 
@@ -11,6 +15,9 @@ use crate::Case;
 pub fn all() -> Vec<Case> {
     vec![
         bar::on_a_wall(),
+        first_light::impact(),
+        first_light::press_twist(),
+        first_light::twist_dry(),
         bar::on_a_clamped_bar(),
         bar::exchange(),
         bar::impedances(),
@@ -23,5 +30,11 @@ pub fn all() -> Vec<Case> {
         hu2022::plate_cylinder(),
         hu2022::plate_cylinder_slow(),
         hu2022::twist(),
+        hertz::cylinder(),
+        hertz::sphere(),
+        hertz::ball(),
+        mindlin::cylinder(),
+        mindlin::sphere(),
+        contact_patch::non_matching(),
     ]
 }

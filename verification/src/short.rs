@@ -1,6 +1,7 @@
 //! Every built-in scene in a form that takes a second or two: what `cargo xtask regress` runs.
 
 use crate::Plan;
+use crate::cases::mindlin;
 
 /// Scene and changed values; a coarser mesh where there is need, and an end after the things that matter have begun.
 const FORMS: &[(&str, &[&str])] = &[
@@ -34,6 +35,12 @@ const FORMS: &[(&str, &[&str])] = &[
     ("press-twist", &["cells=(6, 6, 2)"]),
     ("twist-dry", &["cells=(6, 6, 2)"]),
     ("twist", &["cells=(6, 6, 2)"]),
+    ("contact-patch", &[]),
+    ("hertz-ball", &["refine=1"]),
+    ("hertz-cylinder", &["refine=1", "dt=0.25"]),
+    ("hertz-sphere", &["refine=1", "dt=0.25"]),
+    ("mindlin-cylinder", &["refine=1", "time.dt=0.5"]),
+    ("mindlin-sphere", &mindlin::FIVE),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
 

@@ -7,8 +7,8 @@ use crate::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
 ///
-/// In the plane z = 0 a sphere is a disc, a cylinder along z too, a cone a wedge; in axisymmetry a sphere or cone on
-/// the axis is itself.
+/// In the plane z = 0 a sphere is a disc, a cylinder along z too, a cone a wedge, a punch a strip; in axisymmetry a sphere,
+/// cone or punch on the axis is itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A half-space.
@@ -42,6 +42,15 @@ pub enum Shape {
         axis: [f64; 3],
         /// Angle between axis and surface \[rad\], in (0, pi/2).
         semi_apex_angle: f64,
+    },
+    /// An infinitely tall solid cylinder with a flat end and a sharp edge: a flat indenter.
+    Punch {
+        /// Centre of the flat end \[m\].
+        center: [f64; 3],
+        /// Direction from the flat end into the solid; any length but zero.
+        axis: [f64; 3],
+        /// Radius \[m\].
+        radius: f64,
     },
 }
 
@@ -89,6 +98,15 @@ impl Shape {
                     semi_apex_angle,
                 })
             }
+            Shape::Punch {
+                center,
+                axis,
+                radius,
+            } => Ok(Shape::Punch {
+                center: finite("punch center", center)?,
+                axis: direction("punch axis", axis)?,
+                radius: positive("punch radius [m]", radius)?,
+            }),
         }
     }
 
@@ -123,13 +141,23 @@ impl Shape {
                 axis: turn(axis),
                 semi_apex_angle,
             },
+            Shape::Punch {
+                center,
+                axis,
+                radius,
+            } => Shape::Punch {
+                center: place(center),
+                axis: turn(axis),
+                radius,
+            },
         }
     }
 
     /// Closest surface point to `x`; the shape must have unit directions.
     ///
-    /// `core` \[m\]: a point this close to a place without a normal (centre, axis, apex) takes the definite one.
-    fn closest(&self, x: Vec3, core: f64) -> SurfacePoint {
+    /// `core` \[m\]: a point this close to a place without a normal (centre, axis, apex, edge) takes the definite one.
+    /// `advance` \[m\]: how far a flat end has come out of the solid.
+    fn closest(&self, x: Vec3, core: f64, advance: f64) -> SurfacePoint {
         match *self {
             Shape::Plane { point, normal } => {
                 let gap = dot(normal, sub(x, point));
@@ -161,6 +189,11 @@ impl Shape {
                 axis,
                 semi_apex_angle,
             } => cone(x, apex, axis, semi_apex_angle, core),
+            Shape::Punch {
+                center,
+                axis,
+                radius,
+            } => punch(x, center, axis, radius, core, advance),
         }
     }
 }
@@ -234,6 +267,46 @@ fn cone(x: Vec3, apex: Vec3, axis: Vec3, angle: f64, core: f64) -> SurfacePoint 
     }
 }
 
+/// In the half-plane (radius rho, depth s along the axis) the surface is the face s = 0 up to the edge at the radius,
+/// and the wall above it.
+///
+/// A node inside leaves by the way that is shorter, but one that the face has swept over in this step leaves by the
+/// face, however near to the wall: a step that is long against the elements at the edge must not push nodes aside.
+/// Within `core` of the edge a node is under the face.
+fn punch(x: Vec3, center: Vec3, axis: Vec3, radius: f64, core: f64, advance: f64) -> SurfacePoint {
+    let arm = sub(x, center);
+    let s = dot(arm, axis);
+    let side = reject(arm, axis);
+    let rho = norm(side);
+    let swept = s <= advance.max(radius - rho).max(core);
+    if rho <= radius + core && swept {
+        return SurfacePoint {
+            gap: -s,
+            normal: scale(-1.0, axis),
+            point: axpy(x, -s, axis),
+        };
+    }
+    let out = if rho > core {
+        scale(1.0 / rho, side)
+    } else {
+        across(axis)
+    };
+    let point = axpy(axpy(center, radius, out), s.max(0.0), axis);
+    if s >= 0.0 {
+        return SurfacePoint {
+            gap: rho - radius,
+            normal: out,
+            point,
+        };
+    }
+    let to_node = sub(x, point);
+    SurfacePoint {
+        gap: norm(to_node),
+        normal: unit(to_node).unwrap_or(out),
+        point,
+    }
+}
+
 /// A shape with its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Obstacle {
@@ -274,6 +347,10 @@ impl Obstacle {
             }
             Shape::Cone { apex, axis, .. } if axis[2] == 0.0 => ("z of a cone's apex [m]", apex[2]),
             Shape::Cone { axis, .. } => ("z of a cone's axis", axis[2]),
+            Shape::Punch { center, axis, .. } if axis[2] == 0.0 => {
+                ("z of a punch's center [m]", center[2])
+            }
+            Shape::Punch { axis, .. } => ("z of a punch's axis", axis[2]),
         };
         if z != 0.0 {
             return Some(format!("the {what} is {z}; in the plane it must be 0"));
@@ -288,12 +365,17 @@ impl Obstacle {
 
     /// The obstacle at the end of a step from `t0` to `t1` \[s\].
     pub fn over_step(&self, t0: f64, t1: f64) -> PlacedObstacle<'_> {
-        PlacedObstacle {
+        let mut placed = PlacedObstacle {
             shape: self.shape.moved(&self.motion, t1),
             motion: (!self.motion.is_still()).then_some(&self.motion),
+            advance: 0.0,
             t0,
             t1,
+        };
+        if let Shape::Punch { center, axis, .. } = placed.shape {
+            placed.advance = -dot(axis, placed.displacement(center));
         }
+        placed
     }
 }
 
@@ -302,6 +384,8 @@ impl Obstacle {
 pub struct PlacedObstacle<'a> {
     shape: Shape,
     motion: Option<&'a Motion>,
+    /// How far a flat end comes out of the solid during the step \[m\].
+    advance: f64,
     t0: f64,
     t1: f64,
 }
@@ -315,10 +399,12 @@ impl PlacedObstacle<'_> {
     /// Gap, normal and closest point for the position `x` \[m\] at the end of the step.
     ///
     /// `core` \[m\], small against the mesh: nearer than this to a centre, an axis or an apex, where there is no
-    /// unique normal, a fixed one is taken: along the axis out of the apex (cone), `e_y` (sphere), or a fixed
-    /// direction across the axis (cylinder).
+    /// unique normal, a fixed one is taken: along the axis out of the apex (cone) or the face (edge of a punch), `e_y`
+    /// (sphere), or a fixed direction across the axis (cylinder).
+    ///
+    /// A node that the face of a punch has swept over in this step meets the face, even where the wall is nearer.
     pub fn closest(&self, x: [f64; 3], core: f64) -> SurfacePoint {
-        self.shape.closest(x, core)
+        self.shape.closest(x, core, self.advance)
     }
 
     /// Displacement \[m\] over the step of the obstacle's material point that ends it at `point` \[m\].

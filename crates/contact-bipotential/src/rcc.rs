@@ -15,6 +15,9 @@ use update::{blend, blend_slope, decay_mean, decay_mean_slope};
 /// that approaches a closed gap from above must not see healing come and go with the last digits.
 const CLOSED: f64 = 1e-3;
 
+/// Share of its intensity that a bond may lose in a step that is believed although the end might be another one.
+const CONTINUED: f64 = 0.2;
+
 /// The bond of a slave node between two steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bond {
@@ -322,8 +325,9 @@ impl BondStep {
         }
     }
 
-    /// Whether more than one end position may satisfy the law: the bond softens faster than both viscosity over `dt` and the
-    /// body of local stiffness `stiffness` [N/m] can follow.
+    /// Whether the step may have jumped: the bond lost a good part of its intensity, and more than one end position may
+    /// satisfy the law, since it softens faster than both viscosity over `dt` and the body of local stiffness `stiffness`
+    /// [N/m] can follow. A branch that goes on is told from a jump by steps so short that the bond loses little in each.
     pub fn may_snap(&self, x: &[f64; 3], stiffness: f64) -> bool {
         let (separation, gap) = self.end(x);
         let c = self
@@ -332,8 +336,7 @@ impl BondStep {
             .iter()
             .fold(self.law.normal_stiffness, |m, c| m.max(*c));
         let b0 = self.start.intensity;
-        let broke = self.intensity(x).0 < b0;
-        broke
+        self.intensity(x).0 < (1.0 - CONTINUED) * b0
             && 3.0 * self.law.strain(&separation, gap) * self.dt > self.law.viscosity
             && 3.0 * c * b0 * b0 * self.area > stiffness
     }

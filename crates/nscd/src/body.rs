@@ -31,7 +31,8 @@ pub(crate) struct BodySystem {
     /// Weights of the factor in use; `None` when there is none.
     factored: Option<Weights>,
     contraction: Option<f64>,
-    largest_stiffness: f64,
+    /// Diagonal of the stiffness part of the matrix in use [N/m].
+    elastic: Vec<f64>,
     epoch: u64,
     forward: Vec<f64>,
     rhs: Vec<f64>,
@@ -90,7 +91,7 @@ impl BodySystem {
             surface: None,
             factored: None,
             contraction: None,
-            largest_stiffness: 0.0,
+            elastic: vec![0.0; n],
             epoch: 0,
             forward: vec![0.0; n],
             rhs: vec![0.0; n],
@@ -139,19 +140,21 @@ impl BodySystem {
         self.factor.fill() as f64 * 2.5e-9 + self.values.len() as f64 * 1e-9
     }
 
-    /// Largest diagonal entry of the stiffness part of the matrix in use [N/m].
-    pub(crate) fn largest_stiffness(&self) -> f64 {
-        self.largest_stiffness
+    /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m].
+    pub(crate) fn diagonals(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let whole = self.diagonal().map(|k| self.values[k]);
+        whole.zip(&self.elastic).map(|(w, e)| [w, *e])
+    }
+
+    /// Where the diagonal stands among the values of the matrix.
+    fn diagonal(&self) -> impl Iterator<Item = usize> + '_ {
+        let columns = self.pattern.column_pointers().iter();
+        columns.take(self.dofs.len()).copied()
     }
 
     /// Largest diagonal entry of the matrix in use [N/m].
     pub(crate) fn largest_diagonal(&self) -> f64 {
-        self.pattern
-            .column_pointers()
-            .iter()
-            .take(self.dofs.len())
-            .map(|&k| self.values[k])
-            .fold(0.0, f64::max)
+        self.diagonal().map(|k| self.values[k]).fold(0.0, f64::max)
     }
 
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
@@ -170,7 +173,7 @@ impl BodySystem {
         self.surface = None;
         self.pattern
             .gather_tangent(work, weights.stiffness, &mut self.values);
-        self.largest_stiffness = self.largest_diagonal();
+        self.elastic = self.diagonal().map(|k| self.values[k]).collect();
         if let Some((initial, factor)) = parts.initial_stiffness {
             let mut damping = vec![0.0; self.values.len()];
             self.pattern

@@ -182,7 +182,8 @@ impl Stepper<'_> {
         }
     }
 
-    /// The bonds at the start: those of touching pairs have the initial intensity.
+    /// The bonds at the start: those of touching pairs have the initial intensity, at most what their gap leaves where
+    /// intensities follow it at once.
     pub(crate) fn initial_bonds(&mut self, u: &[f64]) -> Vec<Vec<NodeBond>> {
         let mut bonds = no_bonds(self.model);
         if bonds.iter().all(Vec::is_empty) {
@@ -198,7 +199,7 @@ impl Stepper<'_> {
             bond.gap = c.gap.max(0.0);
             bond.facet = c.facet;
             if BondStep::new(law, 1.0, 0.0, Bond::default(), roundoff).touches(c.gap) {
-                bond.intensity = law.initial;
+                bond.intensity = law.initial.min(law.lasting(bond.gap));
             }
         }
         bonds

@@ -11,6 +11,7 @@ use faer::Mat;
 use crate::body::BodySystem;
 use crate::error::StepFailure;
 use crate::law::in_frame;
+use crate::lent::{Lent, lend};
 use crate::model::Model;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
@@ -172,9 +173,19 @@ pub(crate) fn filtered(map: &ContactMap, keep: impl Fn(usize, &Contact) -> bool)
     ContactMap::new(kept.collect(), map.dim(), map.cone())
 }
 
+/// Which candidates have a bond or may form one: at the present gap, or at the `free` one that they would have without
+/// forces. Bonds of neighbours may hold a surface so near that it stays within reach of its own.
+fn acting(trial: &Trial, cone: usize, free: &[f64]) -> Vec<bool> {
+    let one = |(k, bond): (usize, &BondStep)| {
+        let normal = cone * k + cone - 1;
+        bond.may_act(free[normal].min(trial.x[normal]))
+    };
+    trial.bonds.iter().enumerate().map(one).collect()
+}
+
 /// Which candidates enter the contact problem: those with a force or a bond, and those that the
 /// correction brings near. The others are checked with their exact gap in the next iteration.
-fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64]) -> Vec<bool> {
+fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64], acts: &[bool]) -> Vec<bool> {
     let map = &trial.map;
     if model.scheme.contact == ContactLevel::Velocity {
         return vec![true; map.contacts.len()];
@@ -183,12 +194,9 @@ fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64]) -> Vec<bool> 
         let interface = &model.interfaces[map.contacts[k].interface];
         free[cone * k + cone - 1] <= 0.25 * interface.search_distance
     };
-    let acts = |k: usize| {
-        let bond = trial.bonds.get(k);
-        bond.is_some_and(|bond| bond.may_act(free[cone * k + cone - 1]))
-    };
+    let bonded = |k: usize| acts.get(k).is_some_and(|acts| *acts);
     (0..map.contacts.len())
-        .map(|k| near(k) || trial.r[cone * k + cone - 1] > 0.0 || acts(k))
+        .map(|k| near(k) || trial.r[cone * k + cone - 1] > 0.0 || bonded(k))
         .collect()
 }
 
@@ -198,6 +206,8 @@ fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64]) -> Vec<bool> 
 pub(crate) struct LinearisedContact {
     map: ContactMap,
     problem: ContactProblem,
+    /// What [`lend`] has put into `problem.w`.
+    lent: Vec<Lent>,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
     /// Warm start.
@@ -222,7 +232,8 @@ impl LinearisedContact {
         let mut free = vec![0.0; trial.x.len()];
         trial.map.apply(&z, &mut free);
         free.iter_mut().zip(&trial.x).for_each(|(f, x)| *f += x);
-        let keep = enters(model, trial, cone, &free);
+        let acts = acting(trial, cone, &free);
+        let keep = enters(model, trial, cone, &free, &acts);
         let map = filtered(&trial.map, |k, _| keep[k]);
         let select = |all: &[f64]| -> Vec<f64> {
             all.chunks_exact(cone)
@@ -231,7 +242,9 @@ impl LinearisedContact {
                 .flat_map(|(c, _)| c.iter().copied())
                 .collect()
         };
-        let w = memory.operator(&map, bodies);
+        let mut w = memory.operator(&map, bodies);
+        let q = select(&free);
+        let lent = lend(&mut w, &q, cone);
         let mu = map
             .contacts
             .iter()
@@ -239,20 +252,20 @@ impl LinearisedContact {
             .collect();
         let problem = ContactProblem {
             w: Delassus::Dense(w),
-            q: select(&free),
+            q,
             mu,
             cone: map.cone(),
         };
         let kept = trial.bonds.iter().zip(&keep).filter(|(_, k)| **k);
         let mut bonds: Vec<BondStep> = kept.map(|(bond, _)| *bond).collect();
-        let gaps = problem.q.iter().skip(cone - 1).step_by(cone);
-        if !bonds.iter().zip(gaps).any(|(bond, gap)| bond.may_act(*gap)) {
+        if !acts.contains(&true) {
             bonds.clear();
         }
         Ok(Self {
             r: select(&trial.r),
             map,
             problem,
+            lent,
             bonds,
         })
     }
@@ -331,7 +344,8 @@ impl ContactMemory {
     }
 
     fn keep_operator(&mut self, last: LinearisedContact, x: &[f64]) {
-        if let Delassus::Dense(w) = last.problem.w {
+        if let Delassus::Dense(mut w) = last.problem.w {
+            last.lent.iter().for_each(|lent| lent.take_back(&mut w));
             let at = last.bonds.iter().zip(x.chunks_exact(self.cone));
             self.kept = Some(KeptOperator {
                 contacts: last.map.contacts,

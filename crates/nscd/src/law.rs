@@ -96,7 +96,8 @@ fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
 /// Error of the contact law at an iterate.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LawError {
-    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|` \[N\], `rho = 1/trace W_cc`.
+    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|`, `rho = 1/trace W_cc`, relative to the largest contact force or
+    /// to the round-off of this contact that stands for it [-].
     pub(crate) largest: f64,
     /// Index of that contact in the map.
     pub(crate) worst: usize,
@@ -112,9 +113,16 @@ impl ContactMemory {
     }
 
     /// Error of the contact law with exact gaps; `fallback` is the stiffness [N/m] of contacts
-    /// that never entered a contact problem.
-    pub(crate) fn law_error(&self, model: &Model, trial: &Trial, fallback: f64) -> LawError {
+    /// that never entered a contact problem, `blur` the gap \[m\] that cannot be told from round-off over the tolerance.
+    pub(crate) fn law_error(
+        &self,
+        model: &Model,
+        trial: &Trial,
+        fallback: f64,
+        blur: f64,
+    ) -> LawError {
         let cone = self.cone;
+        let force = trial.r.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
         let mut error = LawError::default();
         for (k, c) in trial.map.contacts.iter().enumerate() {
             let (r, x) = (
@@ -127,7 +135,8 @@ impl ContactMemory {
             };
             let mu = model.interfaces[c.interface].mu;
             let (mu, r) = without_bond(trial.bonds.get(k), mu, r, x);
-            let size = natural_map(mu, rho, &r[3 - cone..], x);
+            let scale = force.max(rho * blur).max(f64::MIN_POSITIVE);
+            let size = natural_map(mu, rho, &r[3 - cone..], x) / scale;
             if size > error.largest {
                 error = LawError {
                     largest: size,

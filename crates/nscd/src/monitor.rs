@@ -23,7 +23,8 @@ const FEW_ROWS: usize = 90;
 pub(crate) struct Check {
     pub(crate) iteration: usize,
     pub(crate) converged: bool,
-    /// Largest residual force on a free dof \[N\], its node, and what is allowed.
+    /// Largest residual force on a free dof \[N\], its node, and what is allowed; where round-off is larger than what
+    /// is allowed, the force counts in that ratio.
     pub(crate) residual: f64,
     node: usize,
     allowed: f64,
@@ -77,7 +78,8 @@ pub(crate) struct Monitor {
     /// Estimated seconds of one iteration.
     iteration_cost: f64,
     extent: f64,
-    element_size: f64,
+    /// Smallest edge of the elements around each node \[m\].
+    element_size: Vec<f64>,
     largest_mass: f64,
     last_distance: f64,
     /// Whether the last correction helped and something is left that another one of its kind mends.
@@ -104,7 +106,7 @@ impl Monitor {
             allowed: 0.0,
             iteration_cost: elements as f64 * 1e-6 + solves + contact_cost(contact_rows),
             extent,
-            element_size: largest_element(model),
+            element_size: smallest_edges(model),
             largest_mass: largest(&model.mass.row_sums()),
             last_distance: f64::MAX,
             calm: true,
@@ -142,22 +144,14 @@ impl Monitor {
         .into_iter()
         .map(|f| largest(f))
         .fold(0.0, f64::max);
-        // Strains carry the round-off of numbers of size one, displacements that of their own size.
-        let elastic = stepper
-            .bodies
-            .iter()
-            .map(BodySystem::largest_stiffness)
-            .fold(0.0, f64::max);
-        let floor = ROUND_OFF * (stiffness * travel + elastic * self.element_size);
-        self.allowed = (settings.newton_tolerance * scale).max(floor);
-        let (residual, node) = self.residual(stepper, trial)?;
-        let law = stepper.memory.law_error(frame.model, trial, stiffness);
-        let force = largest(&trial.r);
-        let floor = ROUND_OFF * stiffness * (self.extent + travel);
-        let contact_error = law.largest
-            / force
-                .max(floor / settings.contact_tolerance)
-                .max(f64::MIN_POSITIVE);
+        let base = settings.newton_tolerance * scale;
+        let unknown = if factored > 0.0 { 0.0 } else { stiffness };
+        let (residual, node) = self.residual(stepper, trial, base, unknown, travel)?;
+        let blur = ROUND_OFF * (self.extent + travel) / settings.contact_tolerance;
+        let law = stepper
+            .memory
+            .law_error(frame.model, trial, stiffness, blur);
+        let contact_error = law.largest;
         let check = Check {
             iteration: self.iteration,
             converged: trial.pending.is_none()
@@ -203,23 +197,50 @@ impl Monitor {
         self.iteration >= 2 * STAGNATION && !fallen && residual <= CLOSE * self.allowed
     }
 
-    /// Largest residual and its node; the contraction of every body goes to the body.
+    /// Largest residual and its node; the contraction of every body goes to the body. `base` is what is allowed where
+    /// round-off is no matter \[N\], `unknown` the stiffness before the first factorization [N/m], `travel` the size of the displacements \[m\].
+    ///
+    /// The bound is one for each dof: on a graded mesh the round-off of the largest elements would hide all that
+    /// happens among the smallest.
     fn residual(
         &mut self,
         stepper: &mut Stepper<'_>,
         trial: &Trial,
+        base: f64,
+        unknown: f64,
+        travel: f64,
     ) -> Result<(f64, usize), StepFailure> {
         let dim = stepper.model().solid.dim();
+        let sizes = &self.element_size;
+        // Strains carry the round-off of numbers of size one, displacements that of their own size.
+        let floors: Vec<Vec<f64>> = stepper
+            .bodies
+            .iter()
+            .map(|body| {
+                let around = |(d, [whole, elastic]): (&u32, [f64; 2])| {
+                    ROUND_OFF * ((whole + unknown) * travel + elastic * sizes[*d as usize / dim])
+                };
+                body.dofs.iter().zip(body.diagonals()).map(around).collect()
+            })
+            .collect();
+        let least = floors.iter().flatten().fold(f64::MAX, |m, f| m.min(*f));
+        self.allowed = base.max(least);
         let mut worst = (0.0, 0);
-        for (body, last) in stepper.bodies.iter_mut().zip(&mut self.norms) {
+        for (k, body) in stepper.bodies.iter_mut().enumerate() {
             let mut norm = 0.0_f64;
-            for &d in &body.dofs {
+            for (&d, floor) in body.dofs.iter().zip(&floors[k]) {
                 let size = (trial.balance[d as usize] + trial.contact_force[d as usize]).abs();
                 if !size.is_finite() {
                     return Err(StepFailure::NotFinite {
                         node: d as usize / dim,
                     });
                 }
+                let weight = if *floor > self.allowed {
+                    self.allowed / floor
+                } else {
+                    1.0
+                };
+                let size = weight * size;
                 if size > norm {
                     norm = size;
                     if size > worst.0 {
@@ -229,13 +250,13 @@ impl Monitor {
             }
             // Contact passes a disturbance back and forth between two bodies: two iterations tell
             // more than one.
-            let [before, previous] = *last;
+            let [before, previous] = self.norms[k];
             match self.iteration {
                 0 => {}
                 1 => body.learn_contraction(norm / previous),
                 _ => body.learn_contraction((norm / before).sqrt()),
             }
-            *last = [previous, norm];
+            self.norms[k] = [previous, norm];
         }
         Ok(worst)
     }
@@ -274,21 +295,25 @@ fn contact_cost(rows: usize) -> f64 {
     n * n * 3e-8
 }
 
-/// Longest edge of a bounding box of an element \[m\].
-fn largest_element(model: &Model) -> f64 {
+/// Shortest edge of the bounding boxes of the elements around each node \[m\].
+fn smallest_edges(model: &Model) -> Vec<f64> {
     let points = &model.solid.mesh().points;
-    let cells = model
-        .solid
-        .blocks()
-        .iter()
-        .flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
-    let extent = |cell: &[u32], c: usize| {
-        let along = cell.iter().map(|&n| points[n as usize][c]);
-        along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
-    };
-    cells
-        .flat_map(|cell| (0..3).map(move |c| extent(cell, c)))
-        .fold(0.0, f64::max)
+    let dim = model.solid.dim();
+    let blocks = model.solid.blocks().iter();
+    let cells = blocks.flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
+    let mut smallest = vec![f64::MAX; points.len()];
+    for cell in cells {
+        let extent = |c: usize| {
+            let along = cell.iter().map(|&n| points[n as usize][c]);
+            along.clone().fold(f64::MIN, f64::max) - along.fold(f64::MAX, f64::min)
+        };
+        let edge = (0..dim).map(extent).fold(f64::MAX, f64::min);
+        for &n in cell {
+            let at = &mut smallest[n as usize];
+            *at = at.min(edge);
+        }
+    }
+    smallest
 }
 
 fn largest(x: &[f64]) -> f64 {

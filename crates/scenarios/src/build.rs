@@ -285,6 +285,15 @@ fn shape(master: &spec::Master) -> Shape {
             axis,
             semi_apex_angle: semi_apex_angle.to_radians(),
         },
+        spec::Master::Punch {
+            center,
+            axis,
+            radius,
+        } => Shape::Punch {
+            center,
+            axis,
+            radius,
+        },
         spec::Master::Plane { point, normal } => Shape::Plane { point, normal },
         spec::Master::Facets(_) => Shape::Plane {
             point: [0.0; 3],

@@ -28,6 +28,7 @@ pub fn description(name: &str, scene: &Scene) -> String {
             Master::Sphere { .. } => "rigid sphere".into(),
             Master::Cylinder { .. } => "rigid cylinder".into(),
             Master::Cone { .. } => "rigid cone".into(),
+            Master::Punch { .. } => "rigid punch".into(),
         };
         let mut words = format!("`{}` on {master}, mu = {}", interface.slave, interface.mu);
         if let Some(bonds) = &interface.adhesion {

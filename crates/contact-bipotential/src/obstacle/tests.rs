@@ -28,6 +28,11 @@ fn shape() -> impl Strategy<Value = Shape> {
             axis,
             semi_apex_angle
         }),
+        (vector(1.0), axis(), 0.1f64..2.0).prop_map(|(center, axis, radius)| Shape::Punch {
+            center,
+            axis,
+            radius
+        }),
     ]
 }
 
@@ -93,7 +98,7 @@ proptest! {
         let still = Obstacle::new(shape, Motion::still()).unwrap();
         let moving = Obstacle::new(shape, motion.clone()).unwrap();
         let before = still.over_step(0.0, t).closest(x, CORE);
-        let after = moving.over_step(0.0, t).closest(motion.position(x, t), CORE);
+        let after = moving.over_step(t, t).closest(motion.position(x, t), CORE);
         prop_assert!((before.gap - after.gap).abs() < 1e-13);
         prop_assert!(norm(sub(motion.rotate(before.normal, t), after.normal)) < 1e-10);
         prop_assert!(norm(sub(motion.position(before.point, t), after.point)) < 1e-10);
@@ -171,6 +176,21 @@ fn parameters_outside_their_bounds_are_refused() {
             axis: [f64::NAN; 3],
             semi_apex_angle: 1.0,
         },
+        Shape::Punch {
+            center: point,
+            axis: [0.0; 3],
+            radius: 1.0,
+        },
+        Shape::Punch {
+            center: [0.0, f64::NAN, 0.0],
+            axis,
+            radius: 1.0,
+        },
+        Shape::Punch {
+            center: point,
+            axis,
+            radius: -1.0,
+        },
     ];
     for shape in bad {
         let error = Obstacle::new(shape, Motion::still()).unwrap_err();
@@ -199,6 +219,64 @@ fn a_node_under_the_tip_meets_it_head_on() {
     let expected = [1.0f64.cos(), 0.0, -1.0f64.sin()];
     assert!(norm(sub(side.normal, expected)) < 1e-15);
     assert!((side.gap - 0.1 * (1.0f64.cos() - 1.0f64.sin())).abs() < 1e-16);
+}
+
+/// A punch of radius 1 that stands on z = 0, and moves by `-sunk` along z from t = 0 to 1.
+fn upright_punch(sunk: f64) -> Obstacle {
+    let punch = Shape::Punch {
+        center: [0.0, 0.0, sunk],
+        axis: [0.0, 0.0, 3.0],
+        radius: 1.0,
+    };
+    let down = Table::new(vec![(0.0, 0.0), (1.0, -sunk)], Interpolation::Linear).unwrap();
+    let still = Table::constant(0.0);
+    Obstacle::new(punch, Motion::translation([still.clone(), still, down])).unwrap()
+}
+
+#[test]
+fn around_the_edge_of_a_punch_the_nearest_surface_counts() {
+    let (down, out) = ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]);
+    let slanted = [0.6, 0.0, -0.8];
+    let cases = [
+        // Below the face, at its edge, above it.
+        ([0.2, 0.0, -0.3], 0.3, down),
+        ([1.0, 0.0, -0.3], 0.3, down),
+        ([1.0, 0.0, 0.0], 0.0, down),
+        ([0.9, 0.0, 0.05], -0.05, down),
+        // Beside the wall and inside it, farther from the face.
+        ([1.3, 0.0, 0.0], 0.3, out),
+        ([1.3, 0.0, 7.0], 0.3, out),
+        ([0.9, 0.0, 0.2], -0.1, out),
+        ([1.0, 0.0, 0.2], 0.0, out),
+        // Beyond the edge and below.
+        ([1.6, 0.0, -0.8], 1.0, slanted),
+    ];
+    let obstacle = upright_punch(0.0);
+    let placed = obstacle.over_step(0.0, 1.0);
+    for (x, gap, normal) in cases {
+        let at = placed.closest(x, 1e-9);
+        assert!((at.gap - gap).abs() < 1e-15, "{x:?}: {at:?}");
+        assert!(norm(sub(at.normal, normal)) < 1e-15, "{x:?}: {at:?}");
+    }
+}
+
+#[test]
+fn nodes_that_the_face_sweeps_over_meet_the_face() {
+    let obstacle = upright_punch(0.2);
+    let driven = obstacle.over_step(0.0, 1.0);
+    for x in [0.0, 0.9, 0.999, 1.0, 1.0 + 1e-12] {
+        for depth in [0.0, 1e-9, 0.1, 0.2 - 1e-12] {
+            let at = driven.closest([x, 0.0, depth], 1e-9);
+            assert_eq!((at.normal, at.gap), ([0.0, 0.0, -1.0], -depth), "{x}");
+        }
+    }
+    // Beyond the edge, or higher than the face has been, the wall counts: also when the punch is withdrawn.
+    for x in [[1.01, 0.0, 0.1], [0.99, 0.0, 0.3]] {
+        assert_eq!(driven.closest(x, 1e-9).normal, [1.0, 0.0, 0.0]);
+    }
+    let back = obstacle.over_step(1.0, 0.0);
+    let at = back.closest([0.99, 0.0, 0.3], 1e-9);
+    assert_eq!((at.normal, at.gap < 0.0), ([1.0, 0.0, 0.0], true));
 }
 
 #[test]
@@ -239,6 +317,11 @@ fn obstacles_that_leave_the_plane_say_why() {
         axis,
         semi_apex_angle: 0.4,
     };
+    let strip = |center, axis| Shape::Punch {
+        center,
+        axis,
+        radius: 0.4,
+    };
     let reason = |shape, motion| Obstacle::new(shape, motion).unwrap().out_of_plane();
     let still = Motion::still;
     let accepted = [
@@ -246,6 +329,7 @@ fn obstacles_that_leave_the_plane_say_why() {
         disc(0.0),
         cylinder([0.0, 0.0, -2.0]),
         wedge(point, [1.0, 2.0, 0.0]),
+        strip(point, [1.0, 2.0, 0.0]),
     ];
     let refused = [
         (plane(z), "plane's normal"),
@@ -255,6 +339,8 @@ fn obstacles_that_leave_the_plane_say_why() {
         (cylinder([0.0, 0.1, 1.0]), "cylinder's axis"),
         (wedge(point, z), "cone's axis"),
         (wedge([0.0, 0.0, 0.1], [1.0, 0.0, 0.0]), "cone's apex"),
+        (strip(point, z), "punch's axis"),
+        (strip([0.0, 0.0, 0.1], [1.0, 0.0, 0.0]), "punch's center"),
     ];
     for shape in accepted {
         assert_eq!(reason(shape, still()), None);

@@ -137,6 +137,17 @@ impl Adhesion {
         }
     }
 
+    /// The intensity that a bond at rest at the gap `x_n` \[m\] starts with at most \[-\]: `min(1, w/k)` if `b = 0`, else 1,
+    /// which takes time to fall.
+    pub fn lasting(&self, gap: f64) -> f64 {
+        let k = self.strain(&[0.0; 2], gap);
+        if self.viscosity > 0.0 || k <= self.energy {
+            1.0
+        } else {
+            self.energy / k
+        }
+    }
+
     /// Whether bonds resist slip.
     pub fn is_tangential(&self) -> bool {
         self.tangential_stiffness != [0.0; 2]

@@ -31,23 +31,35 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             ref x,
             ref y,
             element,
-        } => GridMesh {
-            axes: [x, y].map(spec::Axis::grid_axis).into(),
-            refine,
-            kind: plane_kind(element),
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: plane_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
         }
-        .generate(name),
         spec::Mesh::SolidGrid {
             ref x,
             ref y,
             ref z,
             element,
-        } => GridMesh {
-            axes: [x, y, z].map(spec::Axis::grid_axis).into(),
-            refine,
-            kind: solid_kind(element),
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y, z].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: solid_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
         }
-        .generate(name),
         spec::Mesh::Box {
             min,
             max,

@@ -93,6 +93,9 @@ pub enum Mesh {
         /// Element.
         #[serde(default)]
         element: PlaneElement,
+        /// Radius of curvature of the top at x = 0 \[m\]: `y_max` bends down by `x^2 / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
     },
     /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
     SolidGrid {
@@ -105,6 +108,9 @@ pub enum Mesh {
         /// Element.
         #[serde(default)]
         element: Element,
+        /// Radius of curvature of the top at x = y = 0 \[m\]: `z_max` bends down by `(x^2 + y^2) / (2 R)`; flat when absent.
+        #[serde(default)]
+        crown: Option<f64>,
     },
     /// Disc. Set `rim`, node set `center` (the node nearest the centre).
     Disc {
@@ -241,10 +247,10 @@ impl Mesh {
         let lines = |axis: &Axis| axis.cells() * refine as f64;
         let (nodes, elements) = match self {
             Mesh::Box { cells, element, .. } => lattice(&cells.map(fine), element.per_brick()),
-            Mesh::SolidGrid { x, y, z, element } => {
-                lattice(&[x, y, z].map(lines), element.per_brick())
-            }
-            Mesh::Grid { x, y, element } => {
+            Mesh::SolidGrid {
+                x, y, z, element, ..
+            } => lattice(&[x, y, z].map(lines), element.per_brick()),
+            Mesh::Grid { x, y, element, .. } => {
                 lattice(&[x, y].map(lines), element.per_quadrilateral())
             }
             Mesh::Rectangle { cells, element, .. } => {

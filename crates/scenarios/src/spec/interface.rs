@@ -165,6 +165,15 @@ pub enum Master {
         /// Angle between the axis and the surface \[degrees\], between 0 and 90.
         semi_apex_angle: f64,
     },
+    /// Rigid cylinder with a flat end and a sharp edge, infinitely long; in the plane a strip.
+    Punch {
+        /// Centre of the flat end \[m\].
+        center: [f64; 3],
+        /// Direction from the flat end into the punch, any length but zero \[-\].
+        axis: [f64; 3],
+        /// Radius \[m\].
+        radius: f64,
+    },
 }
 
 impl Master {

@@ -328,6 +328,12 @@ fn nothing_leaves_the_plane() {
             &["no z"],
         ),
         (
+            "Plane(point: (0, 0, 0), normal: (0, 1, 0))",
+            "Punch(center: (0, 0, 0), axis: (0, 1, 1), radius: 1)",
+            "interfaces.ground.master.axis.2",
+            &["no z"],
+        ),
+        (
             "node: (1, 1, 0)",
             "node: (1, 1, 1)",
             "output.probes.hub.node.2",

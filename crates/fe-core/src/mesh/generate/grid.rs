@@ -1,7 +1,9 @@
 //! Rectilinear meshes: lines along x, y and z.
 
 use super::axis::GridAxis;
-use super::{check_kind, name_side, require, require_indices, single_block, triangles};
+use super::{
+    check_kind, name_side, require, require_indices, require_positive, single_block, triangles,
+};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
@@ -80,6 +82,37 @@ impl GridMesh {
             name_side(&mut mesh, &boundary, SIDES[axis][0], |n| at(n) == 0);
             let last = count[axis] - 1;
             name_side(&mut mesh, &boundary, SIDES[axis][1], |n| at(n) == last);
+        }
+        Ok(mesh)
+    }
+
+    /// The mesh with a crowned top: the side `y_max` (`z_max` in space) bends down by `r^2 / (2 radius)` at the distance
+    /// `r` from x = 0 (x = y = 0), the pole of a cylinder (ball) of this `radius` \[m\]; what lies below follows in
+    /// proportion to its height, and the opposite side stays flat.
+    ///
+    /// # Errors
+    /// Those of [`GridMesh::generate`], and [`MeshError::Shape`] for a radius that is not positive or so small that the
+    /// top meets the bottom.
+    pub fn generate_crowned(&self, block: &str, radius: f64) -> Result<Mesh, MeshError> {
+        let mut mesh = self.generate(block)?;
+        require_positive("grid", "radius of the crown [m]", radius)?;
+        let up = mesh.dim - 1;
+        let heights = || mesh.points.iter().map(|x| x[up]);
+        let (bottom, top) = (
+            heights().fold(f64::MAX, f64::min),
+            heights().fold(f64::MIN, f64::max),
+        );
+        let drop = |x: &[f64; 3]| x[..up].iter().map(|x| x * x).sum::<f64>() / (2.0 * radius);
+        let deepest = mesh.points.iter().map(drop).fold(0.0, f64::max);
+        require(
+            deepest < top - bottom,
+            "grid",
+            "radius of the crown [m]",
+            radius,
+            "must be so large that the top stays above the bottom",
+        )?;
+        for x in &mut mesh.points {
+            x[up] -= drop(x) * (x[up] - bottom) / (top - bottom);
         }
         Ok(mesh)
     }

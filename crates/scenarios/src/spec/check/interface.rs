@@ -61,6 +61,15 @@ impl Checker<'_> {
                 self.direction(*axis, &format!("{master}.axis"));
                 self.positive(*radius, &format!("{master}.radius"), "m");
             }
+            Master::Punch {
+                center,
+                axis,
+                radius,
+            } => {
+                self.finite(center, &format!("{master}.center"));
+                self.direction(*axis, &format!("{master}.axis"));
+                self.positive(*radius, &format!("{master}.radius"), "m");
+            }
             Master::Cone {
                 apex,
                 axis,

@@ -20,11 +20,13 @@ impl Checker<'_> {
                 grading,
                 ..
             } => self.lattice(min, max, cells, grading, path),
-            Mesh::Grid { x, y, .. } => {
+            Mesh::Grid { x, y, crown, .. } => {
+                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
                 self.axis(x, &format!("{path}.x"));
                 self.axis(y, &format!("{path}.y"));
             }
-            Mesh::SolidGrid { x, y, z, .. } => {
+            Mesh::SolidGrid { x, y, z, crown, .. } => {
+                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
                 self.axis(x, &format!("{path}.x"));
                 self.axis(y, &format!("{path}.y"));
                 self.axis(z, &format!("{path}.z"));

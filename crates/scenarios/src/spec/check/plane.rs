@@ -148,6 +148,10 @@ impl Checker<'_> {
                         self.flat(*point, &format!("{master}.point"), "m");
                     }
                 }
+                Master::Punch { center, axis, .. } => {
+                    self.flat(*center, &format!("{master}.center"), "m");
+                    self.flat(*axis, &format!("{master}.axis"), "-");
+                }
                 Master::Cone { apex, axis, .. } => {
                     self.flat(*apex, &format!("{master}.apex"), "m");
                     self.flat(*axis, &format!("{master}.axis"), "-");
