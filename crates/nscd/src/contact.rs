@@ -10,8 +10,8 @@ use faer::Mat;
 
 use crate::body::BodySystem;
 use crate::error::StepFailure;
+use crate::held::{held, take_out};
 use crate::law::in_frame;
-use crate::lent::{Lent, lend};
 use crate::model::Model;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
@@ -206,8 +206,8 @@ fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64], acts: &[bool]
 pub(crate) struct LinearisedContact {
     map: ContactMap,
     problem: ContactProblem,
-    /// What [`lend`] has put into `problem.w`.
-    lent: Vec<Lent>,
+    /// `W` before held directions were taken out of it; `None` where there are none.
+    whole: Option<Mat<f64>>,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
     /// Warm start.
@@ -243,8 +243,10 @@ impl LinearisedContact {
                 .collect()
         };
         let mut w = memory.operator(&map, bodies);
-        let q = select(&free);
-        let lent = lend(&mut w, &q, cone);
+        let mut q = select(&free);
+        let held = held(&w, &q, cone);
+        let whole = (!held.is_empty()).then(|| w.clone());
+        take_out(&held, &mut w, &mut q, cone);
         let mu = map
             .contacts
             .iter()
@@ -265,7 +267,7 @@ impl LinearisedContact {
             r: select(&trial.r),
             map,
             problem,
-            lent,
+            whole,
             bonds,
         })
     }
@@ -344,8 +346,8 @@ impl ContactMemory {
     }
 
     fn keep_operator(&mut self, last: LinearisedContact, x: &[f64]) {
-        if let Delassus::Dense(mut w) = last.problem.w {
-            last.lent.iter().for_each(|lent| lent.take_back(&mut w));
+        if let Delassus::Dense(w) = last.problem.w {
+            let w = last.whole.unwrap_or(w);
             let at = last.bonds.iter().zip(x.chunks_exact(self.cone));
             self.kept = Some(KeptOperator {
                 contacts: last.map.contacts,
