@@ -207,8 +207,9 @@ pub(crate) struct LinearisedContact {
     problem: ContactProblem,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
-    /// Warm start.
+    /// Warm start: forces, and positions.
     r: Vec<f64>,
+    x: Vec<f64>,
 }
 
 impl LinearisedContact {
@@ -258,6 +259,7 @@ impl LinearisedContact {
         }
         Ok(Self {
             r: select(&trial.r),
+            x: select(&trial.x),
             map,
             problem,
             bonds,
@@ -278,6 +280,7 @@ impl LinearisedContact {
             ..SolveSettings::default()
         };
         let solver = &mut memory.solver;
+        solver.start_near(&self.problem, &self.bonds, &self.x, &mut self.r);
         let outcome = solver.solve(&self.problem, &self.bonds, &mut self.r, &settings);
         counters.contact_solves += 1;
         counters.bonded_solves += u64::from(!self.bonds.is_empty());
