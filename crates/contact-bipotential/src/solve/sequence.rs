@@ -31,6 +31,9 @@ const FEW: usize = 3;
 /// A factorisation costs about as much as one GMRES iteration for each so many rows: the factors are renewed when the
 /// iterations beyond [`FEW`] have cost as much as new ones.
 const ROWS_PER_ITERATION: usize = 60;
+/// Error from which Newton's method goes no lower where forces cancel, as between soft bodies and stiff bonds; sweeps would
+/// not either.
+const ROUND_OFF: f64 = 1e-10;
 /// Relative residual of the linear system of a Newton step.
 const FORCING: f64 = 1e-3;
 
@@ -65,7 +68,8 @@ impl SequenceSolver {
             Cone::Spatial => self.attempt::<3>(problem, bonds, w, r, settings),
         };
         let outcome = attempt(r);
-        if outcome.is_converged() {
+        let error = outcome.error.max(outcome.error_scale_free);
+        if outcome.is_converged() || error <= ROUND_OFF {
             return outcome;
         }
         let mut rest = solve_bonded(problem, bonds, r, settings);
@@ -160,7 +164,10 @@ impl SequenceSolver {
                 break;
             };
             x = backtrack(&truth, &x, &dr);
-            best.keep_better(&x);
+            let met_round_off = best.is_within(ROUND_OFF);
+            if !best.keep_better(&x) && met_round_off {
+                break;
+            }
         }
         finish(&truth, r, best, settings, Method::Newton, work)
     }
