@@ -1,8 +1,13 @@
 //! The cases. A new one is a file with a function that returns it, and a line in [`all`].
 
 pub mod bar;
+pub mod block;
+pub mod contact_patch;
 pub mod first_light;
+pub mod free_body;
+pub mod hertz;
 pub mod hu2022;
+pub mod mindlin;
 
 use crate::Case;
 
@@ -13,10 +18,23 @@ pub fn all() -> Vec<Case> {
         first_light::impact(),
         first_light::press_twist(),
         first_light::twist_dry(),
+        bar::on_a_clamped_bar(),
+        bar::exchange(),
+        bar::impedances(),
+        block::sliding(),
+        block::bouncing(),
+        free_body::turning(),
+        free_body::vibrating(),
         hu2022::indentation(),
         hu2022::wheel(),
         hu2022::plate_cylinder(),
         hu2022::plate_cylinder_slow(),
         hu2022::twist(),
+        hertz::cylinder(),
+        hertz::sphere(),
+        hertz::ball(),
+        mindlin::cylinder(),
+        mindlin::sphere(),
+        contact_patch::non_matching(),
     ]
 }

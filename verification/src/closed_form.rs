@@ -1,24 +1,15 @@
 //! Closed forms, in SI units. `e_star` is `E / (1 - nu^2)`: an elastic body on a rigid one.
 
+mod dynamics;
+mod partial_slip;
+
 use std::f64::consts::PI;
 
-/// A contact of bars.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BarImpact {
-    /// How long it lasts \[s\].
-    pub duration: f64,
-    /// Constant force \[N\].
-    pub force: f64,
-}
-
-/// A bar of a length \[m\], wave speed \[m/s\], density \[kg/m^3\], velocity \[m/s\] and area \[m^2\] that hits a rigid wall: the
-/// wave runs to the free end and back.
-pub fn bar_on_wall(length: f64, c: f64, density: f64, velocity: f64, area: f64) -> BarImpact {
-    BarImpact {
-        duration: 2.0 * length / c,
-        force: density * c * velocity * area,
-    }
-}
+pub use dynamics::{
+    BarImpact, Stop, bar_exchange, bar_on_clamped_bar, bar_on_wall, bounce_height,
+    bounce_rest_time, free_bar_period, sliding_stop, trapezoidal_period,
+};
+pub use partial_slip::{PartialSlip, under_ball, under_cylinder};
 
 /// Load \[N\], contact radius \[m\] and largest pressure \[Pa\] of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,6 +41,31 @@ pub fn hertz_cylinder(e_star: f64, r: f64, force: f64) -> Pressed {
         radius,
         pressure: 2.0 * force / (PI * radius),
     }
+}
+
+/// `int_0^1 w/s ds + int_1^inf (w - 1)/s ds` minus Euler's constant, `w = (cosh 2s - 1)/(sinh 2s + 2s)`: the depth of an elastic
+/// layer on a smooth rigid base under a line load, beyond its logarithm [-].
+const LAYER: f64 = -0.351_675_392_623_691;
+
+/// Hertz: a cylinder of radius `r` \[m\] pressed by `depth` \[m\] into a layer of `thickness` \[m\], large against the contact, on a
+/// smooth rigid base: `d = 2 F/(pi E*) (ln(2 H/a) + 1/2 + LAYER)`.
+///
+/// The surface of the layer under the pressure `cos k x` moves by `2 w(k H)/(E* k) cos k x`. Superposed for a line load this is the
+/// logarithm of the half-plane with a constant, and the mean of the logarithm over the pressure of Hertz is `ln(a/2) - 1/2`.
+pub fn hertz_cylinder_on_layer(e_star: f64, r: f64, thickness: f64, depth: f64) -> Pressed {
+    let force = |a: f64| PI * e_star * a * a / (4.0 * r);
+    let depth_of =
+        |a: f64| 2.0 * force(a) / (PI * e_star) * ((2.0 * thickness / a).ln() + 0.5 + LAYER);
+    let (mut low, mut high) = (0.0, thickness);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if depth_of(middle) < depth {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    hertz_cylinder(e_star, r, force(low))
 }
 
 /// Boussinesq and Love: force \[N\] on a cone of semi-apex angle `alpha` \[rad\] at `depth` \[m\] \[Feng2007, eq. 61, corrected\].
@@ -86,6 +102,27 @@ mod tests {
         let cylinder = hertz_cylinder(1.0, 1.0, 1e-3);
         assert_relative_eq!(cylinder.radius, 0.035_682_5, max_relative = 1e-5);
         assert_relative_eq!(cylinder.pressure, 0.017_841_2, max_relative = 1e-5);
+    }
+
+    #[test]
+    fn a_layer_is_pressed_as_its_waves_say() {
+        let w = |s: f64| {
+            if s > 20.0 {
+                1.0
+            } else {
+                ((2.0 * s).cosh() - 1.0) / ((2.0 * s).sinh() + 2.0 * s)
+            }
+        };
+        let n = 100_000;
+        let sum = |from: f64, to: f64, f: &dyn Fn(f64) -> f64| -> f64 {
+            let h = (to - from) / f64::from(n);
+            (0..n).map(|k| f(from + h * (f64::from(k) + 0.5)) * h).sum()
+        };
+        let euler = 0.577_215_664_901_532_9;
+        let found = sum(0.0, 1.0, &|s| w(s) / s) + sum(1.0, 30.0, &|s| (w(s) - 1.0) / s) - euler;
+        assert!((found - LAYER).abs() < 1e-7, "{found}");
+        let deep = hertz_cylinder_on_layer(1e9, 1.0, 0.1, 2.723_325e-6);
+        assert_relative_eq!(deep.radius, 1e-3, max_relative = 1e-6);
     }
 
     #[test]

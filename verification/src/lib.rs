@@ -9,6 +9,7 @@ pub mod closed_form;
 pub mod curve;
 pub mod run;
 pub mod short;
+pub mod traction;
 
 pub use case::{Case, Found, Ladder, Measured, Rung, slope};
 pub use run::{Plan, Ran, compute, compute_all};

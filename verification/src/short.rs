@@ -1,10 +1,22 @@
 //! Every built-in scene in a form that takes a second or two: what `cargo xtask regress` runs.
 
 use crate::Plan;
+use crate::cases::mindlin;
 
 /// Scene and changed values; a coarser mesh where there is need, and an end after the things that matter have begun.
 const FORMS: &[(&str, &[&str])] = &[
     ("bar-impact", &["time.end=2.2", "dt=0.02"]),
+    (
+        "bar-on-bar",
+        &[
+            "striker.mesh.cells=(50, 1)",
+            "struck.mesh.cells=(50, 1)",
+            "time.dt=0.02",
+        ],
+    ),
+    ("bouncing-block", &["time.dt=0.002"]),
+    ("free-body", &["time.dt=0.02"]),
+    ("sliding-block", &["time.dt=0.004"]),
     ("debonding", &["mesh.cells=10", "time.dt=1.6e-4"]),
     ("impact", &["time.end=0.5", "mu=0.5"]),
     (
@@ -23,6 +35,12 @@ const FORMS: &[(&str, &[&str])] = &[
     ("press-twist", &["cells=(6, 6, 2)"]),
     ("twist-dry", &["cells=(6, 6, 2)"]),
     ("twist", &["cells=(6, 6, 2)"]),
+    ("contact-patch", &[]),
+    ("hertz-ball", &["refine=1"]),
+    ("hertz-cylinder", &["refine=1", "dt=0.25"]),
+    ("hertz-sphere", &["refine=1", "dt=0.25"]),
+    ("mindlin-cylinder", &["refine=1", "time.dt=0.5"]),
+    ("mindlin-sphere", &mindlin::FIVE),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
 

@@ -79,6 +79,9 @@ pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> 
             turned(node.separation, &axes, &c.frame)
         };
         let area = interface.area[c.slave_index];
+        if area == 0.0 {
+            return BondStep::none();
+        }
         BondStep::new(law, area, frame.dt, node.in_frame(separation), roundoff)
     };
     map.contacts.iter().map(one).collect()
@@ -116,7 +119,7 @@ pub(crate) fn carry_on(
     let ends = trial.bonds.iter().zip(trial.x.chunks_exact(cone));
     for (c, (step, x)) in trial.map.contacts.iter().zip(ends) {
         let interface = &model.interfaces[c.interface];
-        if interface.adhesion.is_none() {
+        if interface.adhesion.is_none() || interface.area[c.slave_index] == 0.0 {
             continue;
         }
         let end = step.finish(&in_frame(x));
@@ -192,9 +195,14 @@ impl Stepper<'_> {
         let positions = self.model.positions(u);
         let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         for c in self.detector.detect(&positions, 0.0, 0.0).contacts {
-            let Some(law) = &self.model.interfaces[c.interface].adhesion else {
+            let interface = &self.model.interfaces[c.interface];
+            let Some(law) = &interface.adhesion else {
                 continue;
             };
+            // A node without area has no bond.
+            if interface.area[c.slave_index] == 0.0 {
+                continue;
+            }
             let bond = &mut bonds[c.interface][c.slave_index];
             bond.gap = c.gap.max(0.0);
             bond.facet = c.facet;

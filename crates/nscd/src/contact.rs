@@ -11,6 +11,7 @@ use faer::Mat;
 use crate::body::BodySystem;
 use crate::error::StepFailure;
 use crate::law::in_frame;
+use crate::lent::{Lent, lend};
 use crate::model::Model;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
@@ -205,6 +206,8 @@ fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64], acts: &[bool]
 pub(crate) struct LinearisedContact {
     map: ContactMap,
     problem: ContactProblem,
+    /// What [`lend`] has put into `problem.w`.
+    lent: Vec<Lent>,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
     /// Warm start: forces, and positions.
@@ -240,7 +243,9 @@ impl LinearisedContact {
                 .flat_map(|(c, _)| c.iter().copied())
                 .collect()
         };
-        let w = memory.operator(&map, bodies);
+        let mut w = memory.operator(&map, bodies);
+        let q = select(&free);
+        let lent = lend(&mut w, &q, cone);
         let mu = map
             .contacts
             .iter()
@@ -248,7 +253,7 @@ impl LinearisedContact {
             .collect();
         let problem = ContactProblem {
             w: Delassus::Dense(w),
-            q: select(&free),
+            q,
             mu,
             cone: map.cone(),
         };
@@ -262,6 +267,7 @@ impl LinearisedContact {
             x: select(&trial.x),
             map,
             problem,
+            lent,
             bonds,
         })
     }
@@ -341,7 +347,8 @@ impl ContactMemory {
     }
 
     fn keep_operator(&mut self, last: LinearisedContact, x: &[f64]) {
-        if let Delassus::Dense(w) = last.problem.w {
+        if let Delassus::Dense(mut w) = last.problem.w {
+            last.lent.iter().for_each(|lent| lent.take_back(&mut w));
             let at = last.bonds.iter().zip(x.chunks_exact(self.cone));
             self.kept = Some(KeptOperator {
                 contacts: last.map.contacts,

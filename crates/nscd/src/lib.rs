@@ -14,6 +14,7 @@ mod energy;
 mod error;
 mod extrapolation;
 mod law;
+mod lent;
 mod linear;
 mod march;
 mod model;

@@ -91,6 +91,30 @@ pub const SCENES: &[Entry] = &[
         name: "flat-punch",
         text: include_str!("../scenes/flat-punch.ron"),
     },
+    Entry {
+        name: "hertz-sphere",
+        text: include_str!("../scenes/hertz-sphere.ron"),
+    },
+    Entry {
+        name: "hertz-cylinder",
+        text: include_str!("../scenes/hertz-cylinder.ron"),
+    },
+    Entry {
+        name: "hertz-ball",
+        text: include_str!("../scenes/hertz-ball.ron"),
+    },
+    Entry {
+        name: "contact-patch",
+        text: include_str!("../scenes/contact-patch.ron"),
+    },
+    Entry {
+        name: "mindlin-cylinder",
+        text: include_str!("../scenes/mindlin-cylinder.ron"),
+    },
+    Entry {
+        name: "mindlin-sphere",
+        text: include_str!("../scenes/mindlin-sphere.ron"),
+    },
 ];
 
 /// Text of a built-in scene or of a file, with the name that errors use.

@@ -182,3 +182,33 @@ fn impossible_grids_are_refused_with_the_bound() {
         assert!(error.to_string().contains(words), "{error}");
     }
 }
+
+#[test]
+fn a_crown_bends_the_top_like_a_ball_and_leaves_the_bottom() {
+    let lines = |from: f64, to: f64| GridAxis::graded(from, to, 5, 2.0);
+    let flat = |dim: usize, kind| GridMesh {
+        axes: [lines(-1.0, 2.0), lines(-0.5, 1.0), lines(-3.0, 0.5)][..dim].to_vec(),
+        refine: 1,
+        kind,
+    };
+    for (dim, kind) in [(2, CellKind::Quad4), (3, CellKind::Hex8)] {
+        let grid = flat(dim, kind);
+        let (plain, bent) = (
+            grid.generate("a").unwrap(),
+            grid.generate_crowned("a", 4.0).unwrap(),
+        );
+        let up = dim - 1;
+        let (bottom, top) = if dim == 2 { (-0.5, 1.0) } else { (-3.0, 0.5) };
+        for (a, b) in plain.points.iter().zip(&bent.points) {
+            let r2: f64 = a[..up].iter().map(|x| x * x).sum();
+            let share = (a[up] - bottom) / (top - bottom);
+            assert!((b[up] - (a[up] - r2 / 8.0 * share)).abs() < 1e-15);
+            assert_eq!(a[..up], b[..up]);
+        }
+        assert!(matches!(
+            grid.generate_crowned("a", 0.5),
+            Err(MeshError::Shape { .. })
+        ));
+        assert!(grid.generate_crowned("a", -1.0).is_err());
+    }
+}

@@ -31,23 +31,35 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             ref x,
             ref y,
             element,
-        } => GridMesh {
-            axes: [x, y].map(spec::Axis::grid_axis).into(),
-            refine,
-            kind: plane_kind(element),
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: plane_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
         }
-        .generate(name),
         spec::Mesh::SolidGrid {
             ref x,
             ref y,
             ref z,
             element,
-        } => GridMesh {
-            axes: [x, y, z].map(spec::Axis::grid_axis).into(),
-            refine,
-            kind: solid_kind(element),
+            crown,
+        } => {
+            let grid = GridMesh {
+                axes: [x, y, z].map(spec::Axis::grid_axis).into(),
+                refine,
+                kind: solid_kind(element),
+            };
+            match crown {
+                Some(radius) => grid.generate_crowned(name, radius),
+                None => grid.generate(name),
+            }
         }
-        .generate(name),
         spec::Mesh::Box {
             min,
             max,
@@ -67,11 +79,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => HalfBallMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: solid_kind(element),
         }
         .generate(name),
         spec::Mesh::Rectangle {
@@ -105,11 +119,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => HalfDiscMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: plane_kind(element),
         }
         .generate(name),
         spec::Mesh::QuarterDisc {
@@ -117,11 +133,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => QuarterDiscMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: plane_kind(element),
         }
         .generate(name),
         spec::Mesh::Annulus {
@@ -130,12 +148,14 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             outer,
             cells,
             grading,
+            element,
         } => AnnulusMesh {
             center,
             inner,
             outer,
             cells: cells.map(fine),
             grading,
+            kind: plane_kind(element),
         }
         .generate(name),
     }
@@ -152,6 +172,8 @@ fn solid_kind(element: spec::Element) -> CellKind {
     match element {
         spec::Element::Hex8 => CellKind::Hex8,
         spec::Element::Tet4 => CellKind::Tet4,
+        spec::Element::Hex27 => CellKind::Hex27,
+        spec::Element::Tet10 => CellKind::Tet10,
     }
 }
 
@@ -159,5 +181,7 @@ fn plane_kind(element: spec::PlaneElement) -> CellKind {
     match element {
         spec::PlaneElement::Quad4 => CellKind::Quad4,
         spec::PlaneElement::Tri3 => CellKind::Tri3,
+        spec::PlaneElement::Quad9 => CellKind::Quad9,
+        spec::PlaneElement::Tri6 => CellKind::Tri6,
     }
 }

@@ -1,14 +1,17 @@
 //! Rectilinear meshes: lines along x, y and z.
 
 use super::axis::GridAxis;
-use super::{check_kind, name_side, require, require_indices, single_block, triangles};
+use super::{
+    check_kind, name_side, of_degree, require, require_indices, require_positive, single_block,
+    triangles,
+};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
 /// A rectilinear mesh in the plane (two axes) or in space (three): each cell of the grid is a quadrilateral or two
 /// triangles, a hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest, then y. The mesh has node and facet sets `x_min`, `x_max`, `y_min`, `y_max`, in
+/// Nodes are numbered with x fastest, then y; those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`, `y_max`, in
 /// space also `z_min`, `z_max`, and the node set `all`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridMesh {
@@ -16,7 +19,7 @@ pub struct GridMesh {
     pub axes: Vec<GridAxis>,
     /// Into how many parts each cell of each axis is divided; 1 leaves them.
     pub refine: usize,
-    /// [`CellKind::Quad4`] or [`CellKind::Tri3`], in space [`CellKind::Hex8`] or [`CellKind::Tet4`].
+    /// A kind of plane cells if there are two axes, of solid cells if there are three.
     pub kind: CellKind,
 }
 
@@ -61,18 +64,19 @@ impl GridMesh {
         }
         let points = points(&lines);
         let count = lines.map(|lines| lines.len());
-        let cells = match self.kind {
+        let kind = self.kind.linear();
+        let cells = match kind {
             CellKind::Quad4 => quads(count),
             CellKind::Tri3 => triangles(&points, &quads(count)),
             CellKind::Tet4 => tetrahedra(&bricks(count)),
-            CellKind::Hex8 => bricks(count),
+            _ => bricks(count),
         };
         let symmetry = if dim == 2 {
             Symmetry::PlaneStrain
         } else {
             Symmetry::None
         };
-        let mut mesh = single_block(symmetry, points, block, self.kind, cells);
+        let mut mesh = single_block(symmetry, points, block, kind, cells);
         let boundary = mesh.boundary_facets();
         let stride = [1, count[0], count[0] * count[1]];
         for axis in 0..dim {
@@ -80,6 +84,37 @@ impl GridMesh {
             name_side(&mut mesh, &boundary, SIDES[axis][0], |n| at(n) == 0);
             let last = count[axis] - 1;
             name_side(&mut mesh, &boundary, SIDES[axis][1], |n| at(n) == last);
+        }
+        of_degree(self.kind.degree(), mesh)
+    }
+
+    /// The mesh with a crowned top: the side `y_max` (`z_max` in space) bends down by `r^2 / (2 radius)` at the distance
+    /// `r` from x = 0 (x = y = 0), the pole of a cylinder (ball) of this `radius` \[m\]; what lies below follows in
+    /// proportion to its height, and the opposite side stays flat.
+    ///
+    /// # Errors
+    /// Those of [`GridMesh::generate`], and [`MeshError::Shape`] for a radius that is not positive or so small that the
+    /// top meets the bottom.
+    pub fn generate_crowned(&self, block: &str, radius: f64) -> Result<Mesh, MeshError> {
+        let mut mesh = self.generate(block)?;
+        require_positive("grid", "radius of the crown [m]", radius)?;
+        let up = mesh.dim - 1;
+        let heights = || mesh.points.iter().map(|x| x[up]);
+        let (bottom, top) = (
+            heights().fold(f64::MAX, f64::min),
+            heights().fold(f64::MIN, f64::max),
+        );
+        let drop = |x: &[f64; 3]| x[..up].iter().map(|x| x * x).sum::<f64>() / (2.0 * radius);
+        let deepest = mesh.points.iter().map(drop).fold(0.0, f64::max);
+        require(
+            deepest < top - bottom,
+            "grid",
+            "radius of the crown [m]",
+            radius,
+            "must be so large that the top stays above the bottom",
+        )?;
+        for x in &mut mesh.points {
+            x[up] -= drop(x) * (x[up] - bottom) / (top - bottom);
         }
         Ok(mesh)
     }

@@ -1,0 +1,123 @@
+//! Cattaneo and Mindlin: two bodies of one material, pressed, then moved sideways to and fro.
+
+use crate::closed_form::{PartialSlip, under_ball, under_cylinder};
+use crate::traction::{INNER, ellipse, tractions};
+use crate::{Case, Found, Ladder, Ran};
+
+use std::f64::consts::PI;
+
+const E_STAR: f64 = 1e9;
+const MU: f64 = 0.5;
+
+/// In plane strain.
+pub fn cylinder() -> Case {
+    Case {
+        name: "mindlin-cylinder",
+        about: "Partial slip under a cylinder: radius of the part that sticks, energy lost in a cycle, half-width of contact and largest \
+                pressure under the load that is found. refine = 2 has 20 elements on the half-width.",
+        scene: "mindlin-cylinder",
+        sets: Vec::new(),
+        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[])],
+        measure: |ran| {
+            let loads = Loads::of(ran, "force.contact.y", 1.0)?;
+            let radius = (4.0 * loads.normal / (PI * E_STAR)).sqrt();
+            let exact = under_cylinder(E_STAR, MU, loads.normal, loads.q());
+            let pressure = 2.0 * loads.normal / (PI * radius);
+            compare(ran, 1.0, radius, pressure, &exact)
+        },
+    }
+}
+
+/// In space.
+pub fn sphere() -> Case {
+    Case {
+        name: "mindlin-sphere",
+        about: "Partial slip under a ball, half of it: radius of the part that sticks, energy lost in a cycle, radius of contact and largest \
+                pressure under the load that is found. The scene has 8 elements on the radius of contact.",
+        scene: "mindlin-sphere",
+        sets: Vec::new(),
+        ladders: vec![
+            Ladder::new("mesh")
+                .rung("5 on the radius", 1.6, &FIVE)
+                .rung("8 on the radius (the scene)", 1.0, &[]),
+        ],
+        measure: |ran| {
+            let loads = Loads::of(ran, "force.contact.z", 2.0)?;
+            let radius = (0.75 * loads.normal / E_STAR).cbrt();
+            let exact = under_ball(0.25 * E_STAR, MU, loads.normal, radius, loads.q());
+            let pressure = 1.5 * loads.normal / (PI * radius * radius);
+            compare(ran, 2.0, radius, pressure, &exact)
+        },
+    }
+}
+
+/// The mesh of `mindlin-sphere` with 5 elements on the radius of contact.
+pub const FIVE: [&str; 6] = [
+    "low.mesh.x.pieces=[Cells(to: -1.2e-3, cells: 5, grading: 0.068), Cells(to: 1.2e-3, cells: 12), Cells(to: 0.01, cells: 5, grading: 14.7)]",
+    "high.mesh.x.pieces=[Cells(to: -1.2e-3, cells: 5, grading: 0.068), Cells(to: 1.2e-3, cells: 12), Cells(to: 0.01, cells: 5, grading: 14.7)]",
+    "low.mesh.y.pieces=[Cells(to: 1.2e-3, cells: 6), Growing(to: 0.01, growth: 1.9)]",
+    "high.mesh.y.pieces=[Cells(to: 1.2e-3, cells: 6), Growing(to: 0.01, growth: 1.9)]",
+    "low.mesh.z.pieces=[Cells(to: -0.6e-3, cells: 3), Growing(to: -0.01, growth: 1.9)]",
+    "high.mesh.z.pieces=[Cells(to: 0.6e-3, cells: 3), Growing(to: 0.01, growth: 1.9)]",
+];
+
+/// Loads of the whole contact at the end \[N\], per metre in the plane.
+struct Loads {
+    normal: f64,
+    sideways: f64,
+}
+
+impl Loads {
+    fn of(ran: &Ran, normal: &str, parts: f64) -> Result<Loads, String> {
+        Ok(Loads {
+            normal: -parts * ran.end(normal)?,
+            sideways: parts * ran.end("force.contact.x")?.abs(),
+        })
+    }
+
+    fn q(&self) -> f64 {
+        self.sideways / (MU * self.normal)
+    }
+}
+
+fn compare(
+    ran: &Ran,
+    parts: f64,
+    radius: f64,
+    pressure: f64,
+    exact: &PartialSlip,
+) -> Result<Vec<Found>, String> {
+    let nodes = tractions(ran, &ran.last);
+    let contact = ellipse(nodes.iter().map(|t| (t.r, t.pressure)), INNER * radius);
+    // Where it sticks, full slip and friction differ by an ellipse that ends where slip begins.
+    let spare = nodes.iter().map(|t| (t.r, MU * t.pressure - t.friction));
+    let stick = ellipse(spare, INNER * exact.stick * radius);
+    let friction = ran.curve("t", "dissipation.friction")?;
+    let at = |time: f64| {
+        let row = friction.iter().find(|p| p.0 >= time - 1e-9);
+        row.map(|p| p.1)
+            .ok_or_else(|| format!("there is no time {time}"))
+    };
+    let loss = parts * (at(6.0)? - at(2.0)?);
+    Ok(vec![
+        Found::exact(
+            "stick over contact radius",
+            "-",
+            stick.radius / contact.radius,
+            exact.stick,
+        ),
+        Found::exact("loss in a cycle", "uJ", 1e6 * loss, 1e6 * exact.loss),
+        Found::exact(
+            "radius of contact",
+            "mm",
+            1e3 * contact.radius,
+            1e3 * radius,
+        ),
+        Found::exact(
+            "largest pressure",
+            "kPa",
+            1e-3 * contact.peak,
+            1e-3 * pressure,
+        ),
+    ])
+}
