@@ -85,11 +85,16 @@ impl<'a> StepFrame<'a> {
                 (1.0 - xi) * start + xi * external_force[i]
             })
             .collect();
+        let mut weights = model.scheme.weights(dt);
+        if model.damping.is_none() {
+            // A factor holds for any step that changes nothing in it.
+            weights.damping = 0.0;
+        }
         Self {
             model,
             now,
             dt,
-            weights: model.scheme.weights(dt),
+            weights,
             external_force,
             constant_force,
             start_damping,
