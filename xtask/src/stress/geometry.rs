@@ -107,6 +107,20 @@ fn distance(shape: &Shape, x: Point) -> f64 {
                 aside * cos - along * sin
             }
         }
+        Shape::Punch {
+            center,
+            axis,
+            radius,
+        } => {
+            let arm = sub(x, center);
+            let before = -dot(arm, axis) / norm(axis);
+            let beside = norm(cross(arm, axis)) / norm(axis) - radius;
+            if before > 0.0 && beside > 0.0 {
+                before.hypot(beside)
+            } else {
+                before.max(beside)
+            }
+        }
     }
 }
 
