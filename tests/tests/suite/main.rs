@@ -18,4 +18,5 @@ mod impact;
 mod patch;
 mod program;
 mod rigid;
+mod robust;
 mod twist;
