@@ -18,6 +18,8 @@ pub(crate) use draw::Case;
 
 /// Runs of the map in the docs.
 const RUNS: usize = 660;
+/// CPU time that a run is named for \[s\].
+const SLOW: f64 = 5.0;
 /// Its seed.
 const SEED: u64 = 2026;
 
@@ -114,6 +116,7 @@ fn tell(index: usize, found: &Found) {
     match &found.end {
         End::Wrong(why) => println!("  {index}: wrong: {why}"),
         End::Budget => println!("  {index}: cut after {} iterations", found.iterations),
+        _ if found.cpu > SLOW => println!("  {index}: {:.0} s CPU", found.cpu),
         _ => {}
     }
 }

@@ -19,4 +19,5 @@ mod patch;
 mod program;
 mod rates;
 mod rigid;
+mod robust;
 mod twist;

@@ -248,7 +248,7 @@ impl Writer<'_> {
             towards.push((end, -0.3 * sign * draw.depth));
         }
         if draw.flicker {
-            let at = |k: usize| if k % 2 == 0 { 0.0 } else { deep };
+            let at = |k: usize| if k.is_multiple_of(2) { 0.0 } else { deep };
             towards = (0..=draw.steps)
                 .map(|k| (draw.dt * k as f64, at(k)))
                 .collect();
