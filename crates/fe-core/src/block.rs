@@ -1,17 +1,21 @@
 //! Blocks: elements of one kind with one material, seen through an object-safe trait.
 
+mod dilatation;
 mod kernel;
 mod plane_kernel;
+mod projected_kernel;
+mod projection;
 mod solid_block;
 
 use std::fmt::Debug;
 
 use hyperelastic::Material;
 
-use crate::element::{Element, Hex8, Quad4, Tet4, Tri3};
+use crate::element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 use crate::error::FeError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
+pub use dilatation::Dilatation;
 pub use solid_block::SolidBlock;
 
 /// Stress and volume change of one element.
@@ -53,6 +57,10 @@ pub trait Block: Debug + Send + Sync {
     fn element_count(&self) -> usize;
     /// Nodes of an element.
     fn nodes_per_element(&self) -> usize;
+    /// Degree of the shape functions, 1 or 2.
+    fn degree(&self) -> usize {
+        1
+    }
     /// Node indices, element after element.
     fn connectivity(&self) -> &[u32];
 
@@ -107,7 +115,7 @@ pub const fn tangent_index(
     (pair * nodes + a) * nodes + b
 }
 
-/// The block for a mesh block's kind of cells: [`SolidBlock`] with the right element.
+/// The block for a mesh block's kind of cells: [`SolidBlock`] with the right element, [`Dilatation::Pointwise`].
 ///
 /// `density` \[kg/m^3\].
 ///
@@ -119,13 +127,33 @@ pub fn solid_block<M: Material>(
     material: M,
     density: f64,
 ) -> Result<Box<dyn Block>, FeError> {
+    solid_block_with(mesh, block_index, material, density, Dilatation::Pointwise)
+}
+
+/// The same with a choice of the dilatation.
+///
+/// `density` \[kg/m^3\].
+///
+/// # Errors
+/// As [`SolidBlock::new`] and [`SolidBlock::with_dilatation`].
+pub fn solid_block_with<M: Material>(
+    mesh: &Mesh,
+    block_index: usize,
+    material: M,
+    density: f64,
+    dilatation: Dilatation,
+) -> Result<Box<dyn Block>, FeError> {
     let boxed = match solid_block::cell_block(mesh, block_index)?.kind {
         CellKind::Hex8 => boxed::<Hex8, M, 8>,
         CellKind::Tet4 => boxed::<Tet4, M, 4>,
         CellKind::Quad4 => boxed::<Quad4, M, 4>,
         CellKind::Tri3 => boxed::<Tri3, M, 3>,
+        CellKind::Hex27 => boxed::<Hex27, M, 27>,
+        CellKind::Tet10 => boxed::<Tet10, M, 10>,
+        CellKind::Quad9 => boxed::<Quad9, M, 9>,
+        CellKind::Tri6 => boxed::<Tri6, M, 6>,
     };
-    boxed(mesh, block_index, material, density)
+    boxed(mesh, block_index, material, density, dilatation)
 }
 
 fn boxed<E, M, const N: usize>(
@@ -133,11 +161,12 @@ fn boxed<E, M, const N: usize>(
     block_index: usize,
     material: M,
     density: f64,
+    dilatation: Dilatation,
 ) -> Result<Box<dyn Block>, FeError>
 where
     E: Element<Nodal = [f64; N]>,
     M: Material,
 {
     let block = SolidBlock::<E, M>::new(mesh, block_index, material, density)?;
-    Ok(Box::new(block))
+    Ok(Box::new(block.with_dilatation(dilatation)?))
 }

@@ -141,6 +141,16 @@ pub enum MeshError {
         /// The names there are.
         known: String,
     },
+    /// A structured mesh that is not made of such cells.
+    #[error("{shape} mesh: {kind:?} cells do not fill it; take {:?} or {:?}", known[0], known[1])]
+    Kind {
+        /// The generator.
+        shape: &'static str,
+        /// Kind of cells asked for.
+        kind: CellKind,
+        /// The kinds that are possible.
+        known: [CellKind; 2],
+    },
     /// A structured mesh that cannot be generated.
     #[error("{shape} mesh: {what} = {value}, {bound}")]
     Shape {
@@ -176,6 +186,17 @@ pub enum FeError {
         point: usize,
         /// Determinant of the deformation gradient \[-\].
         det_f: f64,
+    },
+    /// Elements for which the projected dilatation is the pointwise one.
+    #[error(
+        "block `{block}`: the volume of a {kind:?} cell changes alike in all its quadrature points, so projecting the dilatation changes nothing and \
+         the cells lock as before; use Quad4 in the plane, Hex8 in space, or elements of second order"
+    )]
+    Unprojectable {
+        /// Name of the block.
+        block: String,
+        /// Kind of the cells.
+        kind: CellKind,
     },
     /// A parameter outside its physical bounds.
     #[error("{place}: {what} = {value:e}, {bound}")]

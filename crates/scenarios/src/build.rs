@@ -5,8 +5,8 @@ mod mesh;
 use contact_bipotential::rcc::{Healing, Reference, Update};
 use contact_bipotential::{Adhesion, Interface, Master, Obstacle, Shape};
 use fe_core::{
-    Block, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface,
-    Table, solid_block,
+    Block, DeadTraction, Dilatation, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid,
+    Surface, Table, solid_block_with,
 };
 use nscd::{ContactLevel, Inertia, Load, Model, Rayleigh, Scheme, Settings, Span};
 
@@ -80,26 +80,42 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
 fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, SceneError> {
     let scene = &loaded.scene;
     let mut blocks = Vec::new();
-    for (index, body) in scene.bodies.values().enumerate() {
+    for (index, (name, body)) in scene.bodies.iter().enumerate() {
         let path = format!("materials.{}", body.material);
         let Some(material) = scene.materials.get(&body.material) else {
             return Err(loaded.refuse(&path, "does not exist"));
         };
-        let block = block(mesh, index, material).map_err(|reason| loaded.refuse(&path, reason))?;
-        blocks.push(block);
+        let law = (material.law.build()).map_err(|e| loaded.refuse(&path, e.message))?;
+        let block = block(mesh, index, law, material.density, body.dilatation);
+        blocks.push(block.map_err(|error| match error {
+            FeError::Unprojectable { .. } => {
+                loaded.refuse(&format!("bodies.{name}.dilatation"), error.to_string())
+            }
+            error => loaded.refuse(&path, error.to_string()),
+        })?);
     }
     Ok(blocks)
 }
 
-fn block(mesh: &Mesh, index: usize, material: &spec::Material) -> Result<Box<dyn Block>, String> {
-    let density = material.density;
-    let built = match material.law.build().map_err(|e| e.message)? {
-        BuiltLaw::SaintVenantKirchhoff(law) => solid_block(mesh, index, law, density),
-        BuiltLaw::ThreeE(law) => solid_block(mesh, index, law, density),
-        BuiltLaw::BlatzKo(law) => solid_block(mesh, index, law, density),
-        BuiltLaw::NeoHookean(law) => solid_block(mesh, index, law, density),
+fn block(
+    mesh: &Mesh,
+    index: usize,
+    law: BuiltLaw,
+    density: f64,
+    dilatation: spec::Dilatation,
+) -> Result<Box<dyn Block>, FeError> {
+    let dilatation = match dilatation {
+        spec::Dilatation::Pointwise => Dilatation::Pointwise,
+        spec::Dilatation::Projected => Dilatation::Projected,
     };
-    built.map_err(|e| e.to_string())
+    match law {
+        BuiltLaw::SaintVenantKirchhoff(law) => {
+            solid_block_with(mesh, index, law, density, dilatation)
+        }
+        BuiltLaw::ThreeE(law) => solid_block_with(mesh, index, law, density, dilatation),
+        BuiltLaw::BlatzKo(law) => solid_block_with(mesh, index, law, density, dilatation),
+        BuiltLaw::NeoHookean(law) => solid_block_with(mesh, index, law, density, dilatation),
+    }
 }
 
 fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneError> {

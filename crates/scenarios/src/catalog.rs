@@ -76,6 +76,18 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/debonding.ron"),
     },
     Entry {
+        name: "pull-off",
+        text: include_str!("../scenes/pull-off.ron"),
+    },
+    Entry {
+        name: "peel",
+        text: include_str!("../scenes/peel.ron"),
+    },
+    Entry {
+        name: "plate-pull",
+        text: include_str!("../scenes/plate-pull.ron"),
+    },
+    Entry {
         name: "cone",
         text: include_str!("../scenes/cone.ron"),
     },

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::output::{Status, Summary};
-use crate::spec::{Inertia, Law, Master, Scene, Symmetry};
+use crate::spec::{Dilatation, Inertia, Law, Master, Scene, Symmetry};
 
 /// A short description of a checked scene: bodies, unknowns, interfaces, steps.
 pub fn description(name: &str, scene: &Scene) -> String {
@@ -15,10 +15,13 @@ pub fn description(name: &str, scene: &Scene) -> String {
             .materials
             .get(&body.material)
             .map_or("?", |material| law_name(&material.law));
-        let counts = format!(
+        let mut counts = format!(
             "{} elements, {} nodes, {law} `{}`",
             size.elements, size.nodes, body.material
         );
+        if body.dilatation == Dilatation::Projected {
+            counts += ", dilatation projected";
+        }
         rows.push((format!("body {name}"), counts));
     }
     for (name, interface) in &scene.interfaces {
@@ -71,6 +74,9 @@ pub fn description(name: &str, scene: &Scene) -> String {
         ),
     ));
     text += &aligned(&rows);
+    for warning in scene.warnings() {
+        let _ = writeln!(text, "warning: {warning}");
+    }
     text
 }
 

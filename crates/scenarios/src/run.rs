@@ -94,6 +94,7 @@ pub fn run_with(
         false => error.to_string(),
     });
     let mut summary = summarise(&stepper, &state, &totals, &stopwatch, stopped);
+    summary.warnings.extend(loaded.scene.warnings());
     if let Some(step) = recorder.dump {
         let reason = format!(
             "no contact problem to dump: step {step} was not reached, or nothing touches in it"

@@ -21,7 +21,7 @@ mod paths;
 mod request;
 mod time;
 
-pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Pole, Symmetry};
+pub use body::{Body, Dilatation, Element, Mesh, MeshSize, PlaneElement, Pole, Symmetry};
 pub use error::{Fault, SceneError};
 pub use grid::{Axis, Piece};
 pub use interface::{Adhesion, Healing, Interface, Master, Reference, Stiffness, Update};
@@ -88,6 +88,10 @@ fn one() -> usize {
     1
 }
 
+/// Poisson's ratio beyond which elements with a pointwise dilatation deserve a word \[-\]: there their error is up to seven
+/// times that of projected ones, at .48 up to sixteen times (docs/theory/elements.md, locking).
+const NOTABLE_POISSON_RATIO: f64 = 0.45;
+
 impl Scene {
     /// True when the first body is plane; then all are.
     pub fn is_plane(&self) -> bool {
@@ -103,6 +107,22 @@ impl Scene {
             elements: sum.elements.saturating_add(size.elements),
             dofs: sum.dofs.saturating_add(size.dofs),
         })
+    }
+
+    /// What is allowed but hardly meant.
+    pub fn warnings(&self) -> Vec<String> {
+        let one = |(name, body): (&String, &Body)| {
+            let material = self.materials.get(&body.material)?;
+            let nu = material.law.elastic_constants().ok()?.poisson_ratio();
+            let locks = body.dilatation == Dilatation::Pointwise && nu > NOTABLE_POISSON_RATIO;
+            locks.then(|| {
+                format!(
+                    "body `{name}` is nearly incompressible (nu = {nu:.6}) and its elements are too stiff then: give it \
+                     `dilatation: Projected` (not with Tri3 or Tet4)"
+                )
+            })
+        };
+        self.bodies.iter().filter_map(one).collect()
     }
 
     /// Number of equal steps of `time.dt` that reach `time.end` (a rejected step adds to it).

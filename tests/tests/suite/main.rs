@@ -17,5 +17,6 @@ mod energy;
 mod impact;
 mod patch;
 mod program;
+mod rates;
 mod rigid;
 mod twist;

@@ -10,10 +10,10 @@ use hyperelastic::Material;
 use crate::kinematics::{VOIGT_INDEX, deformation_gradient, determinant, right_cauchy_green};
 
 /// Pairs of components `i <= k`.
-const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
+pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
 
 /// Quadrature points whose products are held before they are summed into the tangent.
-const BATCH: usize = 8;
+pub(super) const BATCH: usize = 8;
 
 /// Rows of a tangent block that are summed together, in registers.
 const ROWS: usize = 4;
@@ -167,7 +167,7 @@ fn elasticity(
 
 /// `A_JL dN_b/dX_L`.
 #[inline(always)]
-fn multiply<const N: usize>(
+pub(super) fn multiply<const N: usize>(
     a: &[[f64; 3]; 3],
     gradients: &Gradients<N>,
     product: &mut Gradients<N>,
@@ -182,7 +182,7 @@ fn multiply<const N: usize>(
 
 /// Sums `dN_a/dX_J product_J[b]` over points and `J` into an `N x N` block.
 #[inline(always)]
-fn add_products<const N: usize>(
+pub(super) fn add_products<const N: usize>(
     gradients: &[Gradients<N>],
     products: &[Gradients<N>],
     first: bool,

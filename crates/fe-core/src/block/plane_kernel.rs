@@ -113,10 +113,7 @@ pub(super) fn tangent<M: Material, const N: usize>(
         energy += volume * response.energy;
         add_force(&f, &response.stress, volume, gradients, forces);
         let a = elasticity(&f, &response.stress, &response.tangent, volume);
-        let [first, mixed, second] = &mut blocks;
-        add_block::<3, 3, N>(gradients, |p, q| a[p][q], first);
-        add_block::<3, 2, N>(gradients, |p, q| a[p][3 + q], mixed);
-        add_block::<2, 2, N>(gradients, |p, q| a[3 + p][3 + q], second);
+        add_blocks(gradients, &a, &mut blocks);
     }
     for (row, sums) in tangent.chunks_exact_mut(N).zip(blocks.as_flattened()) {
         row.copy_from_slice(sums);
@@ -142,6 +139,18 @@ fn elasticity(f: &[[f64; 3]; 3], s: &[f64; 6], d: &[[f64; 6]; 6], volume: f64) -
         }
     }
     a
+}
+
+/// Adds `dN_a/dX_J A_iJkL dN_b/dX_L` to the blocks of the pairs of components.
+#[inline(always)]
+pub(super) fn add_blocks<const N: usize>(
+    gradients: &Gradients<N>,
+    a: &[[f64; 5]; 5],
+    [first, mixed, second]: &mut [[[f64; N]; N]; 3],
+) {
+    add_block::<3, 3, N>(gradients, |p, q| a[p][q], first);
+    add_block::<3, 2, N>(gradients, |p, q| a[p][3 + q], mixed);
+    add_block::<2, 2, N>(gradients, |p, q| a[3 + p][3 + q], second);
 }
 
 /// Adds `dN_a/dX_J A_iJkL dN_b/dX_L` to the block of a pair of components that have `P` and `Q` entries.

@@ -3,8 +3,10 @@
 use hyperelastic::Material;
 use rayon::prelude::*;
 
-use super::kernel::{self, Gradients, Inversion};
-use super::{Block, ElementState, plane_kernel, tangent_len};
+use super::dilatation::{Dilatation, modes};
+use super::kernel::{self, Inversion};
+use super::projection::{Matrix, Plane, Points, Space, Workspace};
+use super::{Block, ElementState, plane_kernel, projected_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
 use crate::kinematics::{cauchy_stress, determinant, right_cauchy_green, von_mises};
@@ -27,6 +29,9 @@ pub struct SolidBlock<E: Element, M: Material> {
     corners: Vec<[E::Nodal; 3]>,
     gradients: Vec<[E::Nodal; 3]>,
     volumes: Vec<f64>,
+    dilatation: Dilatation,
+    /// Of the projected dilatation, `[point][function]`; else empty.
+    modes: Vec<f64>,
 }
 
 /// An element that failed.
@@ -86,7 +91,41 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
             corners,
             gradients,
             volumes,
+            dilatation: Dilatation::Pointwise,
+            modes: Vec::new(),
         })
+    }
+
+    /// The same elements with another dilatation; a new block has [`Dilatation::Pointwise`].
+    ///
+    /// # Errors
+    /// [`FeError::Unprojectable`] for elements that have no more quadrature points than functions to project on.
+    pub fn with_dilatation<const N: usize>(
+        mut self,
+        dilatation: Dilatation,
+    ) -> Result<Self, FeError>
+    where
+        E: Element<Nodal = [f64; N]>,
+    {
+        self.dilatation = dilatation;
+        self.modes.clear();
+        if dilatation == Dilatation::Projected {
+            if E::POINTS <= E::DILATATION_MODES {
+                return Err(FeError::Unprojectable {
+                    block: self.name,
+                    kind: E::KIND,
+                });
+            }
+            let cells = self.corners.iter().zip(self.volumes.chunks(E::POINTS));
+            let modes = cells.flat_map(|(corners, volumes)| modes::<E, N>(corners, volumes));
+            self.modes.extend(modes);
+        }
+        Ok(self)
+    }
+
+    /// The change of volume that the law sees.
+    pub fn dilatation(&self) -> Dilatation {
+        self.dilatation
     }
 
     /// The material.
@@ -143,6 +182,22 @@ where
         local
     }
 
+    #[inline(always)]
+    fn quadrature(&self, element: usize) -> Points<'_, N> {
+        let points = self.points_of(element);
+        let modes = match self.dilatation {
+            Dilatation::Pointwise => 0..0,
+            Dilatation::Projected => {
+                E::DILATATION_MODES * points.start..E::DILATATION_MODES * points.end
+            }
+        };
+        Points {
+            gradients: &self.gradients[points.clone()],
+            volumes: &self.volumes[points],
+            modes: &self.modes[modes],
+        }
+    }
+
     /// Forces of consecutive elements, up to the first that fails.
     fn force_range(
         &self,
@@ -152,21 +207,29 @@ where
         energies: &mut [f64],
     ) -> Option<Failure> {
         let mut local = [[0.0; N]; 3];
+        let mut work = Workspace::new();
         let slices = forces.chunks_exact_mut(Self::DIM * N).zip(energies);
-        let kernel = if Self::DIM == 2 {
-            plane_kernel::internal_force
-        } else {
-            kernel::internal_force
-        };
         for (element, (force, energy)) in (first..).zip(slices) {
-            let points = self.points_of(element);
-            let result = kernel(
+            let (m, u, p) = (
                 &self.material,
                 &self.displacements(element, u),
-                &self.gradients[points.clone()],
-                &self.volumes[points],
-                &mut local,
+                self.quadrature(element),
             );
+            let (f, work) = (&mut local, &mut work);
+            let result = match (self.dilatation, Self::DIM) {
+                (Dilatation::Pointwise, 2) => {
+                    plane_kernel::internal_force(m, u, p.gradients, p.volumes, f)
+                }
+                (Dilatation::Pointwise, _) => {
+                    kernel::internal_force(m, u, p.gradients, p.volumes, f)
+                }
+                (Dilatation::Projected, 2) => {
+                    projected_kernel::internal_force::<Plane, M, 5, N>(m, u, p, work, f)
+                }
+                (Dilatation::Projected, _) => {
+                    projected_kernel::internal_force::<Space, M, 9, N>(m, u, p, work, f)
+                }
+            };
             match result {
                 Ok(w) => *energy = w,
                 Err(inversion) => return Some(Failure { element, inversion }),
@@ -187,19 +250,29 @@ where
     ) -> Option<Failure> {
         let mut local = [[0.0; N]; 3];
         let mut products = kernel::no_products::<N>();
+        let mut work = Workspace::new();
         let slices = forces
             .chunks_exact_mut(Self::DIM * N)
             .zip(energies)
             .zip(tangents.chunks_exact_mut(tangent_len(Self::DIM, N)));
-        for (element, ((force, energy), tangent)) in (first..).zip(slices) {
-            let points = self.points_of(element);
-            let (material, u) = (&self.material, &self.displacements(element, u));
-            let (gradients, volumes) = (&self.gradients[points.clone()], &self.volumes[points]);
-            let f = &mut local;
-            let result = if Self::DIM == 2 {
-                plane_kernel::tangent(material, u, gradients, volumes, f, tangent)
-            } else {
-                kernel::tangent(material, u, gradients, volumes, f, &mut products, tangent)
+        for (element, ((force, energy), k)) in (first..).zip(slices) {
+            let (m, u, p) = (
+                &self.material,
+                &self.displacements(element, u),
+                self.quadrature(element),
+            );
+            let (f, work, products) = (&mut local, &mut work, &mut products);
+            let result = match (self.dilatation, Self::DIM) {
+                (Dilatation::Pointwise, 2) => {
+                    plane_kernel::tangent(m, u, p.gradients, p.volumes, f, k)
+                }
+                (Dilatation::Pointwise, _) => {
+                    kernel::tangent(m, u, p.gradients, p.volumes, f, products, k)
+                }
+                (Dilatation::Projected, 2) => projected_kernel::plane_tangent(m, u, p, work, f, k),
+                (Dilatation::Projected, _) => {
+                    projected_kernel::tangent(m, u, p, work, f, products, k)
+                }
             };
             match result {
                 Ok(w) => *energy = w,
@@ -210,30 +283,40 @@ where
         None
     }
 
+    /// Deformation gradient that the law sees, and its determinant, at each point of an element.
+    fn deformations(&self, element: usize, u: &[f64]) -> Result<Vec<(Matrix, f64)>, Inversion> {
+        let (u, points) = (self.displacements(element, u), self.quadrature(element));
+        if self.dilatation == Dilatation::Projected {
+            let mut work = Workspace::new();
+            if Self::DIM == 2 {
+                work.deform::<Plane, 5>(&u, points)?;
+            } else {
+                work.deform::<Space, 9>(&u, points)?;
+            }
+            return Ok(work.deformations().collect());
+        }
+        let deform = if Self::DIM == 2 {
+            plane_kernel::deform
+        } else {
+            kernel::deform
+        };
+        let gradients = points.gradients.iter().enumerate();
+        gradients.map(|(point, g)| deform(&u, g, point)).collect()
+    }
+
     fn state(&self, element: usize, u: &[f64]) -> Result<ElementState, Failure> {
-        let u = self.displacements(element, u);
+        let fail = |inversion| Failure { element, inversion };
         let mut state = ElementState {
             det_f_min: f64::INFINITY,
             det_f_max: f64::NEG_INFINITY,
             ..ElementState::default()
         };
         let mut volume = 0.0;
-        let deform = if Self::DIM == 2 {
-            plane_kernel::deform
-        } else {
-            kernel::deform
-        };
-        for (point, q) in self.points_of(element).enumerate() {
-            let fail = |det_f| Failure {
-                element,
-                inversion: Inversion { point, det_f },
-            };
-            let gradients: &Gradients<N> = &self.gradients[q];
-            let (f, det_f) =
-                deform(&u, gradients, point).map_err(|inversion| fail(inversion.det_f))?;
+        let deformations = self.deformations(element, u).map_err(fail)?;
+        for (point, (f, det_f)) in deformations.into_iter().enumerate() {
             let stress = self.material.stress(&right_cauchy_green(&f));
-            let (_, s) = stress.map_err(|_| fail(det_f))?;
-            let current = det_f * self.volumes[q];
+            let (_, s) = stress.map_err(|_| fail(Inversion { point, det_f }))?;
+            let current = det_f * self.volumes[element * E::POINTS + point];
             let sigma = cauchy_stress(&f, &s);
             (0..6).for_each(|v| state.cauchy[v] += current * sigma[v]);
             volume += current;
@@ -265,6 +348,10 @@ where
 
     fn nodes_per_element(&self) -> usize {
         N
+    }
+
+    fn degree(&self) -> usize {
+        E::KIND.degree()
     }
 
     fn connectivity(&self) -> &[u32] {

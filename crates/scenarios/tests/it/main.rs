@@ -4,6 +4,7 @@
 mod adhesion;
 mod cli;
 mod contact;
+mod dilatation;
 mod locate;
 mod output;
 mod overrides;
