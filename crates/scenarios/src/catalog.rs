@@ -40,6 +40,10 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/free-body.ron"),
     },
     Entry {
+        name: "oblique-impact",
+        text: include_str!("../scenes/oblique-impact.ron"),
+    },
+    Entry {
         name: "press-twist",
         text: include_str!("../scenes/press-twist.ron"),
     },
