@@ -7,6 +7,7 @@ pub mod first_light;
 pub mod free_body;
 pub mod hertz;
 pub mod hu2022;
+pub mod indenters;
 pub mod mindlin;
 pub mod oblique;
 
@@ -35,6 +36,8 @@ pub fn all() -> Vec<Case> {
         hertz::cylinder(),
         hertz::sphere(),
         hertz::ball(),
+        indenters::cone(),
+        indenters::punch(),
         mindlin::cylinder(),
         mindlin::sphere(),
         contact_patch::non_matching(),

@@ -90,6 +90,11 @@ pub fn punch_force(e_star: f64, a: f64, depth: f64) -> f64 {
     2.0 * a * e_star * depth
 }
 
+/// Pressure \[Pa\] under a flat punch of radius `a` \[m\] with a force \[N\], at the distance `r` \[m\] from its axis.
+pub fn punch_pressure(force: f64, a: f64, r: f64) -> f64 {
+    force / (2.0 * PI * a * (a * a - r * r).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -17,8 +17,17 @@ const FORMS: &[(&str, &[&str])] = &[
     ("bouncing-block", &["time.dt=0.002"]),
     ("free-body", &["time.dt=0.02"]),
     ("sliding-block", &["time.dt=0.004"]),
+    (
+        "cone",
+        &[
+            "semi_apex_angle=85.0",
+            "translation=(0, [(0, 0), (1, -1.37428e-4)], 0)",
+            "dt=0.1",
+        ],
+    ),
     ("debonding", &["mesh.cells=10", "time.dt=1.6e-4"]),
     ("impact", &["time.end=0.5", "mu=0.5"]),
+    ("flat-punch", &[]),
     (
         "indentation-elastic",
         &["block.mesh.cells=(40, 8)", "time.dt=0.1"],

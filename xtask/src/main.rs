@@ -51,7 +51,7 @@ enum Task {
         #[arg(long)]
         update: bool,
     },
-    /// The figures of Hu2022: docs/verification/hu2022.md and what it leads to
+    /// The figures of Hu2022 and Feng2007: docs/verification/hu2022.md, feng2007.md and what they lead to
     Figures {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
         names: Vec<String>,

@@ -1,4 +1,8 @@
-//! Numbers read off curves.
+//! Numbers read off curves and states.
+
+use nscd::State;
+use scenarios::fields::Fields;
+use verification::Ran;
 
 /// Largest value and where it is.
 pub(super) fn peak(x: &[f64], y: &[f64]) -> (f64, f64) {
@@ -26,6 +30,14 @@ pub(super) fn integral(x: &[f64], y: &[f64]) -> f64 {
     pairs
         .map(|(x, y)| 0.5 * (y[0] + y[1]) * (x[1] - x[0]))
         .sum()
+}
+
+/// Largest von Mises stress of an element \[Pa\].
+pub(super) fn largest_von_mises(run: &Ran, state: &State) -> f64 {
+    let fields = Fields::new(&run.built, state);
+    let frame = fields.frame(&run.built, state);
+    let stress = frame.cell_scalar("von_mises").unwrap_or_default();
+    stress.iter().copied().fold(0.0, f64::max)
 }
 
 /// A number with `digits` that count, as text.

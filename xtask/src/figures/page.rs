@@ -3,25 +3,23 @@
 use std::fmt::Write as _;
 
 use super::runs::Ran;
-use super::{Figure, STUDIES, Study};
+use super::{Figure, Paper, STUDIES, Study};
 use crate::fclib::write_document;
 use crate::{Outcome, root};
 
-/// Beside `hu2022.md`: the pages of the studies and all pictures.
-const FOLDER: &str = "hu2022";
-
 pub(super) fn write(study: &Study, figures: &[Figure], runs: &[Ran]) -> Outcome {
+    let folder = study.paper.folder;
     for (file, svg) in figures.iter().flat_map(|figure| &figure.pictures) {
-        write_document(&format!("{FOLDER}/{file}"), svg)?;
+        write_document(&format!("{folder}/{file}"), svg)?;
     }
-    let name = format!("{FOLDER}/{}.md", study.name);
+    let name = format!("{folder}/{}.md", study.name);
     write_document(&name, &text(study, figures, runs))
 }
 
 fn text(study: &Study, figures: &[Figure], runs: &[Ran]) -> String {
     let mut text = format!(
-        "# [Hu2022] {}\n\nMade by `cargo xtask figures {}`; numbers in the text are those of the runs.\n",
-        study.title, study.name
+        "# [{}] {}\n\nMade by `cargo xtask figures {}`; numbers in the text are those of the runs.\n",
+        study.paper.key, study.title, study.name
     );
     for figure in figures {
         let _ = writeln!(text, "\n## Figure {}: {}\n", figure.number, figure.title);
@@ -52,14 +50,16 @@ fn text(study: &Study, figures: &[Figure], runs: &[Ran]) -> String {
     text
 }
 
-/// Writes the page that leads to the studies, from the pages that are there.
-pub(super) fn write_index() -> Outcome {
-    let mut text = "# The figures of [Hu2022]\n\n\
-        Made by `cargo xtask figures`: every figure of the paper that data can make, from the built-in scenes. Figures 1, 4, 5 and 11\n\
-        are sketches of set-ups; the tables 6 (e) and 10 (a) stand in the text of their figures.\n"
-        .to_owned();
-    for study in &STUDIES {
-        let file = format!("{FOLDER}/{}.md", study.name);
+/// Writes the page that leads to the studies of a paper, from the pages that are there.
+pub(super) fn write_index(paper: &Paper) -> Outcome {
+    let mut text = format!(
+        "# The figures of [{}]\n\n\
+         Made by `cargo xtask figures`: every figure of the paper that data can make, from the built-in scenes. {}\n",
+        paper.key, paper.about
+    );
+    let studies = STUDIES.iter().filter(|s| s.paper.folder == paper.folder);
+    for study in studies {
+        let file = format!("{}/{}.md", paper.folder, study.name);
         let path = root().join("docs/verification").join(&file);
         let _ = writeln!(text, "\n## {}\n", study.title);
         let Ok(page) = std::fs::read_to_string(&path) else {
@@ -73,5 +73,5 @@ pub(super) fn write_index() -> Outcome {
             let _ = writeln!(text, "- [Figure {heading}]({file})");
         }
     }
-    write_document("hu2022.md", &text)
+    write_document(&format!("{}.md", paper.folder), &text)
 }

@@ -1,7 +1,8 @@
 //! What the figures take from runs.
 
 use nscd::State;
-use scenarios::output::{Axis, Chart, Curve, deformed_svg};
+use scenarios::fields::Fields;
+use scenarios::output::{Array, Axis, CellShape, Cells, Chart, Curve, Frame, Values, deformed_svg};
 use verification::compute_all;
 pub(super) use verification::{Plan as Planned, Ran};
 
@@ -11,6 +12,8 @@ pub(super) trait Shown {
     fn named_curve(&self, name: &str, x: &str, y: &str) -> Result<Curve, String>;
     /// Picture of the bodies at a time of the plan, coloured by the von Mises stress.
     fn deformed(&self, title: &str, index: usize) -> Result<String, String>;
+    /// The same of a plane scene, and only of the elements with `|x|` and `|y|` below `near` \[m\] in the reference state.
+    fn near(&self, title: &str, index: usize, near: f64) -> Result<String, String>;
     /// Reference position of the node that a probe follows \[m\].
     fn place(&self, probe: &str) -> Result<[f64; 3], String>;
 }
@@ -22,8 +25,46 @@ impl Shown for Ran {
 
     fn deformed(&self, title: &str, index: usize) -> Result<String, String> {
         let state: &State = self.snapshot(index)?;
-        let fields = scenarios::fields::Fields::new(&self.built, state);
+        let fields = Fields::new(&self.built, state);
         deformed_svg(title, &fields.frame(&self.built, state))
+    }
+
+    fn near(&self, title: &str, index: usize, near: f64) -> Result<String, String> {
+        let state = self.snapshot(index)?;
+        let fields = Fields::new(&self.built, state);
+        let frame = fields.frame(&self.built, state);
+        let stress = frame.cell_scalar("von_mises").unwrap_or_default();
+        let shown = |node: &u32| frame.points[*node as usize].iter().all(|x| x.abs() < near);
+        let mut values = stress.iter();
+        let mut kept: Vec<(CellShape, Vec<u32>)> = Vec::new();
+        let mut kept_stress = Vec::new();
+        for cells in &frame.cells {
+            let mut connectivity = Vec::new();
+            let all = cells.connectivity.chunks_exact(cells.shape.node_count());
+            for (cell, value) in all.zip(values.by_ref()) {
+                if cell.iter().all(shown) {
+                    connectivity.extend_from_slice(cell);
+                    kept_stress.push(*value);
+                }
+            }
+            kept.push((cells.shape, connectivity));
+        }
+        let cells = kept.iter().map(|(shape, connectivity)| Cells {
+            shape: *shape,
+            connectivity,
+        });
+        let values = Values::Scalar(&kept_stress);
+        let part = Frame {
+            time: frame.time,
+            points: frame.points,
+            cells: cells.collect(),
+            point_data: frame.point_data.clone(),
+            cell_data: vec![Array {
+                name: "von_mises",
+                values,
+            }],
+        };
+        deformed_svg(title, &part)
     }
 
     fn place(&self, probe: &str) -> Result<[f64; 3], String> {

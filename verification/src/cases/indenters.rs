@@ -1,0 +1,194 @@
+//! Rigid indenters with an edge or a tip on a half-space: cone and flat punch.
+
+use scenarios::spec::{Law, Master, Motion};
+
+use crate::closed_form::{cone_force, cone_pressure, cone_radius, punch_force, punch_pressure};
+use crate::traction::tractions;
+use crate::{Case, Found, Ladder, Ran};
+
+/// Of both scenes \[Pa\].
+const E: f64 = 1.0e7;
+/// Radius of the contact at the end, and of the punch \[m\].
+const RADIUS: f64 = 1.0e-3;
+/// Of the flat punch \[-\].
+const PUNCH_NU: f64 = 0.3;
+/// Parts of the radius between which pressures are compared: outside of them a node's share reaches over the tip or the edge.
+const COMPARED: [f64; 2] = [0.15, 0.85];
+
+/// A law that, other than that of the scene, does not soften under the tip.
+pub const NEO_HOOKEAN: &str = "materials.block.law=NeoHookean(E: 1.0e7, nu: 0.495)";
+
+/// The cone of 85 degrees: strains are small, but not nothing.
+pub fn cone() -> Case {
+    let rung = |ladder: Ladder, label: String, size: f64, sets: &[String]| {
+        let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
+        ladder.rung(label, size, &sets)
+    };
+    let mut mesh = Ladder::new("mesh, neo-Hookean");
+    for refine in [1, 2, 3] {
+        let sets = [format!("refine={refine}"), NEO_HOOKEAN.to_owned()];
+        mesh = rung(
+            mesh,
+            format!("refine = {refine}"),
+            2.0 / f64::from(refine),
+            &sets,
+        );
+    }
+    let mut domain = Ladder::new("radius of the block, neo-Hookean");
+    for radii in [20.0, 100.0, 500.0, 2500.0] {
+        let mut sets = block_of(radii).to_vec();
+        sets.push(NEO_HOOKEAN.to_owned());
+        domain = rung(domain, format!("{radii} a"), 1.0 / radii, &sets);
+    }
+    let mut angle = Ladder::new("angle, Saint Venant-Kirchhoff");
+    for degrees in [80.0, 85.0, 87.5, 89.0] {
+        let size = (90.0_f64 - degrees) / 5.0;
+        angle = rung(angle, format!("{degrees} degrees"), size, &cone_at(degrees));
+    }
+    Case {
+        name: "cone",
+        about: "A rigid cone of 85 degrees on an elastic half-space, nu = .495: P/d^2 over that of small strains, mean over the depths \
+                from half of the way on; pressure over that of small strains, mean over the nodes between .15 and .85 of the radius. \
+                The law of the paper softens in compression, by as much as the cone is steep. [Feng2007, 4.1]",
+        scene: "cone",
+        sets: [
+            &cone_at(85.0)[..],
+            &block_of(2500.0),
+            &["refine=2".to_owned()],
+        ]
+        .concat(),
+        ladders: vec![mesh, domain, angle.of_order(1.0)],
+        measure: |ran| {
+            let (coefficient, spread) = cone_coefficient(ran)?;
+            Ok(vec![
+                Found::exact("P/d^2", "-", coefficient, 1.0),
+                Found::exact("pressure", "-", cone_pressures(ran)?, 1.0),
+                Found::zero("spread of P/d^2", "-", spread, 1.0),
+            ])
+        },
+    }
+}
+
+/// Values with which the cone of the scene has another angle, and the same radius of contact at the end.
+pub fn cone_at(degrees: f64) -> [String; 2] {
+    let depth = RADIUS / cone_radius(degrees.to_radians(), 1.0);
+    [
+        format!("contact.master.semi_apex_angle={degrees:?}"),
+        format!(
+            "contact.motion.translation=(0.0, [(0.0, 0.0), (1.0, {:?})], 0.0)",
+            -depth
+        ),
+    ]
+}
+
+/// Values with which the block has another size, in radii of contact.
+pub fn block_of(radii: f64) -> [String; 2] {
+    let size = radii * RADIUS;
+    [
+        format!("block.mesh.x.pieces.1.to={size:?}"),
+        format!("block.mesh.y.pieces.1.to={:?}", -size),
+    ]
+}
+
+/// `E*` \[Pa\], angle \[rad\] and depth at the end \[m\] of a run.
+fn cone_of(ran: &Ran) -> Result<[f64; 3], String> {
+    let interface = ran.scene.interfaces.get("contact").ok_or("no contact")?;
+    let (
+        Master::Cone {
+            semi_apex_angle, ..
+        },
+        Motion::Move { translation, .. },
+    ) = (&interface.master, &interface.motion)
+    else {
+        return Err("not a cone that moves".to_owned());
+    };
+    let depth = translation[1].points().last().map_or(f64::NAN, |p| -p.1);
+    let material = ran.scene.materials.get("block").ok_or("no block")?;
+    let nu = match material.law {
+        Law::SaintVenantKirchhoff { nu, .. } | Law::NeoHookean { nu, .. } => nu,
+        _ => None,
+    };
+    let nu = nu.ok_or("the block has no Poisson's ratio")?;
+    Ok([E / (1.0 - nu * nu), semi_apex_angle.to_radians(), depth])
+}
+
+/// Force over that of small strains, and the largest less the least: from depth to depth a node more or less is in contact, so
+/// the mean over the depths from half of the way on.
+///
+/// # Errors
+/// The run is not one of a cone.
+pub fn cone_coefficient(ran: &Ran) -> Result<(f64, f64), String> {
+    let [e_star, angle, depth] = cone_of(ran)?;
+    let force = ran.curve("t", "force.contact.y")?;
+    let later = force.iter().filter(|p| p.0 > 0.5);
+    let ratios: Vec<f64> = later
+        .map(|(t, f)| -f / cone_force(e_star, angle, depth * t))
+        .collect();
+    let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+    let (least, most) = ratios
+        .iter()
+        .fold((f64::MAX, 0.0_f64), |(a, b), r| (a.min(*r), b.max(*r)));
+    Ok((mean, most - least))
+}
+
+/// Distance from the axis over the radius of contact, and pressure over `E*/2 cot(alpha)`, at the end of a run.
+///
+/// # Errors
+/// The run is not one of a cone.
+pub fn cone_profile(ran: &Ran) -> Result<Vec<(f64, f64)>, String> {
+    let [e_star, angle, depth] = cone_of(ran)?;
+    let a = cone_radius(angle, depth);
+    let unit = 0.5 * e_star / angle.tan();
+    let all = tractions(ran, &ran.last).into_iter();
+    Ok(all.map(|t| (t.r / a, t.pressure / unit)).collect())
+}
+
+fn cone_pressures(ran: &Ran) -> Result<f64, String> {
+    // In these units the pressure is acosh(1/s).
+    let exact = |s: f64| cone_pressure(2.0, std::f64::consts::FRAC_PI_4, 1.0, s);
+    Ok(mean_ratio(cone_profile(ran)?, exact))
+}
+
+fn mean_ratio(profile: Vec<(f64, f64)>, exact: impl Fn(f64) -> f64) -> f64 {
+    let compared = profile
+        .into_iter()
+        .filter(|p| p.0 > COMPARED[0] && p.0 < COMPARED[1]);
+    let ratios: Vec<f64> = compared.map(|(s, p)| p / exact(s)).collect();
+    ratios.iter().sum::<f64>() / ratios.len() as f64
+}
+
+/// A flat punch.
+pub fn punch() -> Case {
+    let large = block_of(2500.0);
+    let large: Vec<&str> = large.iter().map(String::as_str).collect();
+    let uniform = [
+        "block.mesh.x.pieces.0.grading=1.0",
+        "block.mesh.y.pieces.0.grading=1.0",
+    ];
+    let uniform: Vec<&str> = uniform.into_iter().chain(large.iter().copied()).collect();
+    Case {
+        name: "flat-punch",
+        about: "A flat rigid punch on an elastic half-space, nu = .3: force at a small depth, and pressure over that of small strains, mean \
+                over the nodes between .15 and .85 of the radius. The pressure is singular at the edge: order 1 on equal elements, and much \
+                less of an error on elements that are graded towards the edge.",
+        scene: "flat-punch",
+        sets: Vec::new(),
+        ladders: vec![
+            Ladder::over_refine("mesh, graded towards the edge", &[1, 2, 4], &large),
+            Ladder::over_refine("mesh, equal elements", &[1, 2, 4], &uniform).of_order(1.0),
+        ],
+        measure: |ran| {
+            let e_star = E / (1.0 - PUNCH_NU * PUNCH_NU);
+            let depth = ran.end("probe.center.displacement.y")?.abs();
+            let force = -ran.end("force.contact.y")?;
+            let exact = punch_force(e_star, RADIUS, depth);
+            let profile = tractions(ran, &ran.last).into_iter();
+            let profile = profile.map(|t| (t.r / RADIUS, t.pressure)).collect();
+            let pressure = |s: f64| punch_pressure(force, RADIUS, s * RADIUS);
+            Ok(vec![
+                Found::exact("force", "N", force, exact),
+                Found::exact("pressure", "-", mean_ratio(profile, pressure), 1.0),
+            ])
+        },
+    }
+}
