@@ -9,6 +9,7 @@ mod grids;
 mod loads;
 mod meshes;
 mod plane;
+mod quadratic;
 mod shape_bounds;
 mod shapes;
 mod surfaces;

@@ -9,6 +9,7 @@ mod output;
 mod overrides;
 mod pictures;
 mod plane;
+mod quadratic;
 mod refusals;
 mod scene;
 mod sweep;
