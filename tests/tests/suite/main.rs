@@ -17,6 +17,7 @@ mod energy;
 mod impact;
 mod patch;
 mod program;
+mod quadratic_contact;
 mod rates;
 mod rigid;
 mod robust;
