@@ -200,8 +200,8 @@ fn caption(runs: &[Ran]) -> Result<String, String> {
     let _ = write!(
         text,
         "\n**Agrees:** the numerical force is below that of small strains, and the more so the larger the strains are; there is no length \
-         scale, so that P/d^2 does not depend on the depth, but for the teeth of nodes that come into contact one by one. The pressure of \
-         the blunt cones is that of equation 60.\n\n\
+         scale, so that under the blunt cones P/d^2 does not depend on the depth, but for the teeth of nodes that come into contact one by one. The pressure tends \
+         to that of equation 60 as the cone gets blunter.\n\n\
          **Differs:** in the paper the difference grows with the depth. Here it is the angle that sets it: the part by which the force is smaller goes with \
          cot(alpha), {:.3} of it for the law of the paper, which resists compression less and less; without strains a straight line through \
          {} and {} degrees leaves a ratio of {:.4}. What else counts: the block, which at 20 a is too small for a half-space, and the \
