@@ -13,8 +13,10 @@ const WIDTH: u32 = 900;
 const HEIGHT: u32 = 680;
 /// Column of the colour bar.
 const BAR: u32 = 130;
-/// Above this many visible faces each is one patch of colour.
-const SMOOTH_FACES: usize = 1000;
+/// Patches of colour of a picture; a face has up to 9, and one at least.
+const PATCHES: f64 = 1200.0;
+/// Largest number of patches along an edge of a face.
+const PARTS: f64 = 3.0;
 
 /// Picture of the deformed surface, coloured by the cell field `von_mises` averaged to the nodes; grey when there
 /// is none. Needs the point field `displacement` to deform anything.
@@ -45,7 +47,8 @@ fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
     let scale = Scale::around(on_surface, 6, true);
     let fit = Fit::new(&view, &points, &faces);
     let visible = visible_faces(&view, &points, &faces);
-    let parts = if visible.len() <= SMOOTH_FACES { 3 } else { 1 };
+    let along = (PATCHES / visible.len().max(1) as f64).sqrt();
+    let parts = along.floor().clamp(1.0, PARTS) as usize;
     let scenery = Scenery {
         points: &points,
         view: &view,
