@@ -267,13 +267,8 @@ fn the_period_of_a_free_bar_is_that_of_the_trapezoidal_rule() {
 }
 
 fn oblique_sets(psi: f64) -> [String; 3] {
-    let velocity = psi * 0.3 * 1.7 / 1.4 * 0.0107;
     let [mesh, step] = oblique::COARSE.map(str::to_owned);
-    [
-        mesh,
-        step,
-        format!("block.velocity=({velocity:e}, 0.0, -0.0107)"),
-    ]
+    [mesh, step, oblique::velocity(psi, 0.3)]
 }
 
 /// Maw, Barber and Fawcett on a coarse mesh; `psi` is uncertain by what their theory leaves out (see the docs).
