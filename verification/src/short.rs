@@ -41,6 +41,9 @@ const FORMS: &[(&str, &[&str])] = &[
     ("hertz-sphere", &["refine=1", "dt=0.25"]),
     ("mindlin-cylinder", &["refine=1", "time.dt=0.5"]),
     ("mindlin-sphere", &mindlin::FIVE),
+    ("pull-off", &["time.dt=0.1"]),
+    ("peel", &["time.end=6"]),
+    ("plate-pull", &["time.dt=0.01"]),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
 

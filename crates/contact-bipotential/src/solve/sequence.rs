@@ -101,13 +101,7 @@ impl SequenceSolver {
         }
     }
 
-    fn near<const D: usize>(
-        &mut self,
-        truth: &Truth<'_>,
-        w: &Mat<f64>,
-        x: &[f64],
-        r: &mut [f64],
-    ) {
+    fn near<const D: usize>(&mut self, truth: &Truth<'_>, w: &Mat<f64>, x: &[f64], r: &mut [f64]) {
         let mut best = Iterate::new(truth, r);
         let mut there = best.clone();
         for (c, bond) in truth.bonds().iter().enumerate() {
@@ -123,10 +117,7 @@ impl SequenceSolver {
         // What separates the positions that the forces make from those that they were evaluated at.
         let mut apart = vec![0.0; x.len()];
         truth.velocity(&there.r, &mut apart);
-        apart
-            .iter_mut()
-            .zip(&there.u)
-            .for_each(|(a, u)| *a -= u);
+        apart.iter_mut().zip(&there.u).for_each(|(a, u)| *a -= u);
         let system = System::<D>::new(truth, w, &there);
         let mut rhs = system.right_side();
         for c in 0..truth.bonds().len() {
@@ -173,11 +164,7 @@ impl SequenceSolver {
     }
 
     /// The Newton step: by GMRES with the remembered factors, or with new ones.
-    fn step<const D: usize>(
-        &mut self,
-        system: &System<'_, D>,
-        rhs: Vec<f64>,
-    ) -> Option<Vec<f64>> {
+    fn step<const D: usize>(&mut self, system: &System<'_, D>, rhs: Vec<f64>) -> Option<Vec<f64>> {
         let worth_it = self.excess * ROWS_PER_ITERATION <= rhs.len();
         if let Some(factor) = self
             .factor
