@@ -1,5 +1,6 @@
 //! The cases. A new one is a file with a function that returns it, and a line in [`all`].
 
+pub mod adhesion;
 pub mod bar;
 pub mod block;
 pub mod contact_patch;
@@ -41,5 +42,9 @@ pub fn all() -> Vec<Case> {
         mindlin::cylinder(),
         mindlin::sphere(),
         contact_patch::non_matching(),
+        adhesion::pull_off(),
+        adhesion::pull_off_small(),
+        adhesion::peel(),
+        adhesion::plate_pull(),
     ]
 }

@@ -1,0 +1,137 @@
+//! Bonds against closed forms: pull-off of a ball from DMT towards JKR, peel of a strip, pull of a rigid plate.
+
+use std::f64::consts::PI;
+
+use crate::closed_form::{DMT, bond_ramp, maugis_parameter, peel_force};
+use crate::curve::{Curve, mean, peak};
+use crate::{Case, Found, Ladder, Ran};
+
+/// Pull-off force over `pi w R` for the bonds of the program on a half-space, over the Maugis parameter: from an
+/// integral equation for the traction, rings of constant traction with Newton's method along the opening, as many rings as
+/// digits need.
+pub const HALF_SPACE: [(f64, f64); 6] = [
+    (0.1, 1.9884),
+    (0.3, 1.9424),
+    (0.6, 1.8577),
+    (1.0, 1.7622),
+    (2.0, 1.6375),
+    (3.0, 1.587),
+];
+
+/// Values that bring `pull-off` to a Maugis parameter of .1: weak bonds reach far, and the mesh has to.
+pub const SMALL: [&str; 2] = [
+    "C_n=3.391e7",
+    "mesh.x=(from: 0.0, pieces: [Cells(to: 4.5e-3, cells: 40), Growing(to: 22.0e-3, growth: 1.06)])",
+];
+
+/// Pull-off at a Maugis parameter of 1.
+pub fn pull_off() -> Case {
+    Case {
+        name: "pull-off",
+        about: "Largest pull on a ball over pi w R at the Maugis parameter 1, against an integral equation for the half-space with the same bonds.",
+        scene: "pull-off",
+        sets: Vec::new(),
+        ladders: vec![
+            Ladder::over_refine("mesh", &[1, 2, 3], &[]),
+            Ladder::over_dt("step", &[0.08, 0.04, 0.02], &[]),
+        ],
+        measure: largest_pull,
+    }
+}
+
+/// Pull-off at a Maugis parameter of .1.
+pub fn pull_off_small() -> Case {
+    Case {
+        name: "pull-off-dmt",
+        about: "The same at the Maugis parameter .1, where the pull is almost the 2 pi w R of Derjaguin, Muller and Toporov.",
+        scene: "pull-off",
+        sets: SMALL.map(str::to_owned).to_vec(),
+        ladders: vec![Ladder::over_refine("mesh", &[1, 2], &[])],
+        measure: largest_pull,
+    }
+}
+
+fn largest_pull(ran: &Ran) -> Result<Vec<Found>, String> {
+    let (e_star, radius) = (2.0e6_f64, 0.1_f64);
+    let bonds = ran.scene.interfaces["contact"].adhesion;
+    let bonds = bonds.ok_or("the scene has no bonds")?;
+    let lambda = maugis_parameter(e_star, radius, bonds.energy, bonds.normal_stiffness);
+    let force = ran.curve("t", "force.contact.y")?;
+    let (_, largest) = peak(&force).ok_or("the history is empty")?;
+    let pull = largest / (PI * bonds.energy * radius);
+    let close = |(known, _): &&(f64, f64)| (known / lambda - 1.0).abs() < 1e-3;
+    let against = match HALF_SPACE.iter().find(close) {
+        Some((_, exact)) => Found::exact("pull-off", "pi w R", pull, *exact),
+        None => Found::open("pull-off", "pi w R", pull),
+    };
+    Ok(vec![
+        against,
+        Found::exact("pull-off against DMT", "pi w R", pull, DMT),
+    ])
+}
+
+/// Peel of a strip.
+pub fn peel() -> Case {
+    Case {
+        name: "peel",
+        about: "Steady force per width, mean over the last 10 mm of lift, against F (1 + F / (2 E' t)) = w.",
+        scene: "peel",
+        sets: Vec::new(),
+        ladders: vec![Ladder::over_refine("mesh", &[1, 2], &[])],
+        measure: steady_peel,
+    }
+}
+
+fn steady_peel(ran: &Ran) -> Result<Vec<Found>, String> {
+    let force = ran.curve("t", "force.end.y")?;
+    let end = force.last().map_or(f64::NAN, |p| p.0);
+    let late: Curve = force.into_iter().filter(|p| p.0 >= end - 10.0).collect();
+    let steady = mean(&late).ok_or("the history is empty")?;
+    Ok(vec![Found::exact(
+        "force",
+        "N/m",
+        steady,
+        peel_force(32.0, 8e3),
+    )])
+}
+
+/// Pull of a rigid plate.
+pub fn plate_pull() -> Case {
+    Case {
+        name: "plate-pull",
+        about: "A row of bonds stretched alike at De = .1: intensity at three times the stretch at which they start to break, largest force, and work \
+                until ten times that stretch, against the ramp of one bond.",
+        scene: "plate-pull",
+        sets: Vec::new(),
+        ladders: vec![Ladder::over_dt("step", &[0.008, 0.004, 0.002, 0.001], &[]).of_order(2.0)],
+        measure: ramp,
+    }
+}
+
+fn ramp(ran: &Ran) -> Result<Vec<Found>, String> {
+    let (energy, stiffness, speed, area) = (20.0_f64, 2.0e9, 1e-3, 0.02);
+    let bonds = ran.scene.interfaces["joint"].adhesion;
+    let viscosity = bonds.ok_or("the scene has no bonds")?.viscosity;
+    let gap = (energy / stiffness).sqrt();
+    let de = viscosity * speed / (energy * gap);
+    let pull = |s: f64| bond_ramp(de, s).powi(2) * stiffness * s * gap * area;
+    let fine: Curve = (0..=4000)
+        .map(|k| 0.0025 * f64::from(k))
+        .map(|s| (s * gap, pull(s)))
+        .collect();
+    let force: Curve = ran
+        .curve("t", "force.joint.y")?
+        .iter()
+        .map(|(t, f)| (t * speed, -f))
+        .collect();
+    let beta = ran.curve("t", "probe.corner.beta")?;
+    let at = beta.iter().find(|p| p.0 * speed >= (3.0 - 1e-9) * gap);
+    let (t, beta) = at.copied().ok_or("the run is too short")?;
+    let work = |curve: &Curve| mean(curve).map_or(f64::NAN, |m| m * 10.0 * gap);
+    let top = |curve: &Curve| peak(curve).map_or(f64::NAN, |p| p.1);
+    Ok(vec![
+        Found::exact("beta", "-", beta, bond_ramp(de, t * speed / gap)),
+        Found::exact("largest force", "N/m", top(&force), top(&fine)),
+        Found::exact("work", "J/m", work(&force), work(&fine)),
+    ])
+}
