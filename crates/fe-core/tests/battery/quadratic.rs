@@ -78,7 +78,7 @@ fn check(mesh: &Mesh, sides: &[&str]) {
     let mut covered = Vec::new();
     for side in sides {
         let facets = &mesh.facet_sets[*side];
-        covered.extend(facets.iter().map(|facet| sorted(facet)));
+        covered.extend(facets.iter().map(sorted));
         let surface = Surface::new(facets.clone()).unwrap();
         assert_eq!(surface.nodes, mesh.node_sets[*side], "{side}");
     }
