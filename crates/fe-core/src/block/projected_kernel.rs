@@ -12,7 +12,7 @@
 //!
 //! The entries of `F` that can change are taken as a list: nine in space, five in the plane.
 
-use hyperelastic::{Inverted, Material, Response};
+use hyperelastic::Material;
 
 use super::kernel::{self, BATCH, Gradients, Inversion, PAIRS, Products};
 use super::plane_kernel;
@@ -41,23 +41,18 @@ fn first_stress<L: Entries<K>, const K: usize>(f: &Matrix, s: &[f64; 6]) -> [f64
     L::LIST.map(|(_, i, j)| (0..3).map(|m| f[i][m] * s[VOIGT_INDEX[m][j]]).sum())
 }
 
-/// Strain energy \[J\], amplitudes of the pressure, and nodal forces \[N\] of the points in the workspace, of which `stress`
-/// gives energy and stress at `Cbar`.
-#[inline(always)]
-fn add_forces<L: Entries<K>, const K: usize, const N: usize>(
+/// Strain energy \[J\], amplitudes of the pressure, and nodal forces \[N\].
+#[inline(never)]
+fn forces<L: Entries<K>, const K: usize, const N: usize>(
     element: Points<'_, N>,
-    work: &mut Workspace<N>,
+    work: &Workspace<N>,
     forces: &mut [[f64; N]; 3],
-    mut stress: impl FnMut(&[f64; 6]) -> Result<(f64, [f64; 6]), Inverted>,
-) -> Result<(f64, [f64; MODES]), Inversion> {
+) -> (f64, [f64; MODES]) {
     let mut energy = 0.0;
     let mut pressure = [0.0; MODES];
     *forces = [[0.0; N]; 3];
-    for (point, at) in work.points.iter().enumerate() {
+    for (point, (at, (w, s))) in work.points.iter().zip(&work.stresses).enumerate() {
         let (f_bar, volume) = (at.f_bar(), element.volumes[point]);
-        let Ok((w, s)) = stress(&right_cauchy_green(&f_bar)) else {
-            return Err(at.failed(point));
-        };
         energy += volume * w;
         let mut p = first_stress::<L, K>(&f_bar, &s.map(|s| volume * s));
         let trace = product(&p, &L::LIST.map(|(_, i, j)| f_bar[i][j]));
@@ -71,7 +66,7 @@ fn add_forces<L: Entries<K>, const K: usize, const N: usize>(
         }
     }
     add_multiples(&pressure, &work.rates, forces);
-    Ok((energy, pressure))
+    (energy, pressure)
 }
 
 /// Strain energy \[J\] and nodal forces \[N\], which are stored `[i][a]`.
@@ -81,11 +76,35 @@ pub(super) fn internal_force<L: Entries<K>, M: Material, const K: usize, const N
     u: &[[f64; N]; 3],
     element: Points<'_, N>,
     work: &mut Workspace<N>,
-    forces: &mut [[f64; N]; 3],
+    f: &mut [[f64; N]; 3],
 ) -> Result<f64, Inversion> {
     work.deform::<L, K>(u, element)?;
-    let (energy, _) = add_forces::<L, K, N>(element, work, forces, |c| material.stress(c))?;
-    Ok(energy)
+    work.stresses.clear();
+    for (point, at) in work.points.iter().enumerate() {
+        let stress = material.stress(&right_cauchy_green(&at.f_bar()));
+        work.stresses.push(stress.map_err(|_| at.failed(point))?);
+    }
+    Ok(forces::<L, K, N>(element, work, f).0)
+}
+
+/// Deformation, stresses and moduli of all points.
+#[inline(always)]
+fn respond<L: Entries<K>, M: Material, const K: usize, const N: usize>(
+    material: &M,
+    u: &[[f64; N]; 3],
+    element: Points<'_, N>,
+    work: &mut Workspace<N>,
+) -> Result<(), Inversion> {
+    work.deform::<L, K>(u, element)?;
+    work.stresses.clear();
+    work.moduli.clear();
+    for (point, at) in work.points.iter().enumerate() {
+        let response = material.response(&right_cauchy_green(&at.f_bar()));
+        let response = response.map_err(|_| at.failed(point))?;
+        work.stresses.push((response.energy, response.stress));
+        work.moduli.push(response.tangent);
+    }
+    Ok(())
 }
 
 /// Strain energy \[J\], nodal forces \[N\] and tangent \[N/m\] in space, see [`super::tangent_index`].
@@ -95,10 +114,38 @@ pub(super) fn tangent<M: Material, const N: usize>(
     u: &[[f64; N]; 3],
     element: Points<'_, N>,
     work: &mut Workspace<N>,
-    forces: &mut [[f64; N]; 3],
+    f: &mut [[f64; N]; 3],
     products: &mut Products<N>,
     tangent: &mut [f64],
 ) -> Result<f64, Inversion> {
+    respond::<Space, M, 9, N>(material, u, element, work)?;
+    Ok(assemble(element, work, f, products, tangent))
+}
+
+/// The same in the plane.
+#[inline(always)]
+pub(super) fn plane_tangent<M: Material, const N: usize>(
+    material: &M,
+    u: &[[f64; N]; 3],
+    element: Points<'_, N>,
+    work: &mut Workspace<N>,
+    f: &mut [[f64; N]; 3],
+    tangent: &mut [f64],
+) -> Result<f64, Inversion> {
+    respond::<Plane, M, 5, N>(material, u, element, work)?;
+    Ok(assemble_plane(element, work, f, tangent))
+}
+
+// What follows knows no law, so that the compiler makes it once for each element.
+
+#[inline(never)]
+fn assemble<const N: usize>(
+    element: Points<'_, N>,
+    work: &Workspace<N>,
+    f: &mut [[f64; N]; 3],
+    products: &mut Products<N>,
+    tangent: &mut [f64],
+) -> f64 {
     let gradients = element.gradients;
     let add = |point: usize, h: &[[f64; 9]; 9]| {
         let slot = point % BATCH;
@@ -113,60 +160,50 @@ pub(super) fn tangent<M: Material, const N: usize>(
             }
         }
     };
-    let (energy, couplings) = hessians::<Space, M, 9, N>(material, u, element, work, forces, add)?;
+    let (energy, pressure) = forces::<Space, 9, N>(element, work, f);
+    let couplings = hessians::<Space, 9, N>(element, work, &pressure, add);
     add_couplings(&PAIRS, &couplings, &work.rates, tangent);
-    Ok(energy)
+    energy
 }
 
-/// The same in the plane.
-#[inline(always)]
-pub(super) fn plane_tangent<M: Material, const N: usize>(
-    material: &M,
-    u: &[[f64; N]; 3],
+#[inline(never)]
+fn assemble_plane<const N: usize>(
     element: Points<'_, N>,
-    work: &mut Workspace<N>,
-    forces: &mut [[f64; N]; 3],
+    work: &Workspace<N>,
+    f: &mut [[f64; N]; 3],
     tangent: &mut [f64],
-) -> Result<f64, Inversion> {
+) -> f64 {
     let mut blocks = [[[0.0; N]; N]; 3];
     let add = |point: usize, h: &[[f64; 5]; 5]| {
         plane_kernel::add_blocks(&element.gradients[point], h, &mut blocks);
     };
-    let (energy, couplings) = hessians::<Plane, M, 5, N>(material, u, element, work, forces, add)?;
+    let (energy, pressure) = forces::<Plane, 5, N>(element, work, f);
+    let couplings = hessians::<Plane, 5, N>(element, work, &pressure, add);
     for (row, sums) in tangent.chunks_exact_mut(N).zip(blocks.as_flattened()) {
         row.copy_from_slice(sums);
     }
     let pairs = [(0, 0), (0, 1), (1, 1)];
     add_couplings(&pairs, &couplings, &work.rates, tangent);
-    Ok(energy)
+    energy
 }
 
-/// Energy, forces, `add(point, ..)` of the Hessian in `F` of each point, and the vectors `c_i` of the part
-/// `sum_i (c_i g_i + g_i c_i)` of the tangent, with the rates `g_i`.
+/// `add(point, ..)` of the Hessian in `F` of each point, and the vectors `c_i` of the part `sum_i (c_i g_i + g_i c_i)` of the
+/// tangent, with the rates `g_i`.
 #[inline(always)]
-fn hessians<L: Entries<K>, M: Material, const K: usize, const N: usize>(
-    material: &M,
-    u: &[[f64; N]; 3],
+fn hessians<L: Entries<K>, const K: usize, const N: usize>(
     element: Points<'_, N>,
-    work: &mut Workspace<N>,
-    forces: &mut [[f64; N]; 3],
+    work: &Workspace<N>,
+    pressure: &[f64; MODES],
     mut add: impl FnMut(usize, &[[f64; K]; K]),
-) -> Result<(f64, [Gradients<N>; MODES]), Inversion> {
-    work.deform::<L, K>(u, element)?;
-    let mut responses = std::mem::take(&mut work.responses);
-    responses.clear();
-    let (energy, pressure) = add_forces::<L, K, N>(element, work, forces, |c| {
-        let response = material.response(c)?;
-        responses.push(response);
-        Ok((response.energy, response.stress))
-    })?;
-    work.responses = responses;
+) -> [Gradients<N>; MODES] {
     let mut couplings = [[[0.0; N]; 3]; MODES];
     let mut bulk = [[0.0; MODES]; MODES];
-    for (point, (at, response)) in work.points.iter().zip(&work.responses).enumerate() {
+    for (point, at) in work.points.iter().enumerate() {
         let (modes, volume) = (element.modes_at(point), element.volumes[point]);
-        let local: f64 = modes.iter().zip(&pressure).map(|(b, p)| b * p).sum();
-        let hessian = hessian::<L, K>(at, response, local, volume);
+        let local: f64 = modes.iter().zip(pressure).map(|(b, p)| b * p).sum();
+        let s = work.stresses[point].1.map(|s| volume * s);
+        let a = elasticity::<L, K>(&at.f_bar(), &s, &work.moduli[point], volume);
+        let hessian = hessian::<L, K>(at, &s, &a, volume * local);
         add(point, &hessian.ff);
         for (i, b) in modes.iter().enumerate() {
             let coupling = hessian.f_theta.map(|h| b * h);
@@ -179,7 +216,7 @@ fn hessians<L: Entries<K>, M: Material, const K: usize, const N: usize>(
     for (coupling, bulk) in couplings.iter_mut().zip(&bulk) {
         add_multiples(bulk, &work.rates, coupling);
     }
-    Ok((energy, couplings))
+    couplings
 }
 
 /// Second derivatives of the energy of a point, times its volume.
@@ -190,26 +227,25 @@ struct Hessian<const K: usize> {
     theta_theta: f64,
 }
 
-#[inline(always)]
+/// From the stress `s`, the first elasticity `a` and the pressure of the point, all times its volume.
+#[inline(never)]
 fn hessian<L: Entries<K>, const K: usize>(
     at: &Deformed,
-    response: &Response,
+    s: &[f64; 6],
+    a: &[[f64; K]; K],
     pressure: f64,
-    volume: f64,
 ) -> Hessian<K> {
     let (scale, f_bar, theta) = (at.scale(), at.f_bar(), at.theta);
-    let s = response.stress.map(|s| volume * s);
-    let a = elasticity::<L, K>(&f_bar, &s, &response.tangent, volume);
     let g = at.cofactor.map(|row| row.map(|c| c / at.det_f));
     let stretch = L::LIST.map(|(_, i, j)| f_bar[i][j]);
-    let mut y = first_stress::<L, K>(&f_bar, &s);
+    let mut y = first_stress::<L, K>(&f_bar, s);
     let trace = product(&y, &stretch);
-    for (y, a) in y.iter_mut().zip(&a) {
+    for (y, a) in y.iter_mut().zip(a) {
         *y += product(a, &stretch);
     }
     // `y` without its factor alpha: its product with Fbar is `s`.
     let bulk = product(&y, &stretch) / 9.0;
-    let p = volume * pressure * at.det_f;
+    let p = pressure * at.det_f;
     let (dyadic, turning) = (bulk + p, trace / 3.0 - p);
     let y = y.map(|y| scale * y / 3.0);
     let mut ff = [[0.0; K]; K];
@@ -238,7 +274,7 @@ fn product<const K: usize>(x: &[f64; K], y: &[f64; K]) -> f64 {
 }
 
 /// `delta_ik s_JL + volume F_iM D_MJNL F_kN`.
-#[inline(always)]
+#[inline(never)]
 fn elasticity<L: Entries<K>, const K: usize>(
     f: &Matrix,
     s: &[f64; 6],

@@ -1,7 +1,5 @@
 //! Deformation of the quadrature points of an element with projected dilatation, see [`super::projected_kernel`].
 
-use hyperelastic::Response;
-
 use super::kernel::{self, Gradients, Inversion};
 use super::plane_kernel;
 
@@ -118,7 +116,10 @@ impl Deformed {
 #[derive(Debug)]
 pub(super) struct Workspace<const N: usize> {
     pub(super) points: Vec<Deformed>,
-    pub(super) responses: Vec<Response>,
+    /// Energy and stress at `Cbar`.
+    pub(super) stresses: Vec<(f64, [f64; 6])>,
+    /// `dS/dE` at `Cbar`.
+    pub(super) moduli: Vec<[[f64; 6]; 6]>,
     /// Derivatives of the amplitudes of the dilatation with respect to the displacements.
     pub(super) rates: [Gradients<N>; MODES],
 }
@@ -127,7 +128,8 @@ impl<const N: usize> Workspace<N> {
     pub(super) fn new() -> Self {
         Workspace {
             points: Vec::new(),
-            responses: Vec::new(),
+            stresses: Vec::new(),
+            moduli: Vec::new(),
             rates: [[[0.0; N]; 3]; MODES],
         }
     }
@@ -138,7 +140,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// Deformation of all points, and the rates.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn deform<L: Entries<K>, const K: usize>(
         &mut self,
         u: &[[f64; N]; 3],

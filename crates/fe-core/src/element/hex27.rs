@@ -77,6 +77,7 @@ impl Element for Hex27 {
     const KIND: CellKind = CellKind::Hex27;
     const NODES: usize = 27;
     const POINTS: usize = 27;
+    const DILATATION_MODES: usize = 4;
     type Nodal = [f64; 27];
 
     fn reference_nodes() -> &'static [[f64; 3]] {

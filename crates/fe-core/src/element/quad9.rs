@@ -32,6 +32,7 @@ impl Element for Quad9 {
     const KIND: CellKind = CellKind::Quad9;
     const NODES: usize = 9;
     const POINTS: usize = 9;
+    const DILATATION_MODES: usize = 3;
     type Nodal = [f64; 9];
 
     fn reference_nodes() -> &'static [[f64; 3]] {
