@@ -1,6 +1,10 @@
 //! Stiff blocks against what is known of rigid ones.
 
-use crate::common::{Run, run, scene_text};
+use fe_core::{Solid, solid_block};
+use hyperelastic::{ElasticConstants, SaintVenantKirchhoff};
+use scenarios::build::build;
+
+use crate::common::{Run, run, scene, scene_text, try_run_built};
 
 /// A block of one material that can meet the plane z = 0, with room for what differs.
 fn block(
@@ -177,4 +181,41 @@ fn a_block_falls_like_a_stone() {
         );
     }
     assert!((run.totals.energy.load_work / 5e4 - 1.0).abs() < 1e-9);
+}
+
+/// The block of `sliding-block` turned onto a plane that is inclined by `angle` \[rad\], from rest.
+fn on_a_slope(angle: f64, end: f64) -> Run {
+    let (sin, cos) = angle.sin_cos();
+    let normal = format!("ground.master.normal=({sin:e}, {cos:e}, 0.0)");
+    let end = format!("time.end={end:e}");
+    let sets = [normal.as_str(), "block.velocity=(0.0, 0.0, 0.0)", &end];
+    let mut built = build(&scene("sliding-block", &sets)).unwrap();
+    let model = &mut built.model;
+    let mut mesh = model.solid.mesh().clone();
+    for x in &mut mesh.points {
+        *x = [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0], 0.0];
+    }
+    let elastic = ElasticConstants::from_young_poisson(1e11, 0.2).unwrap();
+    let law = SaintVenantKirchhoff::new(elastic).unwrap();
+    let block = solid_block(&mesh, 0, law, 1000.0).unwrap();
+    model.solid = Solid::new(mesh, vec![block]).unwrap();
+    try_run_built(built)
+}
+
+#[test]
+fn a_block_slides_down_an_inclined_plane_only_beyond_the_angle_of_friction() {
+    let (mu, g, end) = (0.25, 10.0, 0.1);
+    for tangent in [0.2, 0.249, 0.251, 0.4] {
+        let (sin, cos) = f64::atan(tangent).sin_cos();
+        let run = on_a_slope(f64::atan(tangent), end);
+        assert!(run.end.is_ok() && run.totals.rejections.is_empty());
+        let exact = (g * (sin - mu * cos) * end).max(0.0);
+        for v in run.last().state.v.chunks_exact(2) {
+            let (along, off) = (cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]);
+            assert!(
+                (along - exact).abs() < 1e-6 && off.abs() < 1e-9,
+                "tan {tangent}: {along} m/s along and {off} m/s off, not {exact} m/s"
+            );
+        }
+    }
 }

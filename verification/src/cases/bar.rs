@@ -42,7 +42,7 @@ pub fn on_a_clamped_bar() -> Case {
     Case {
         name: "bar-on-bar",
         about: "An elastic bar hits an equal one that is clamped at its far end: contact lasts 4 L/c = 4 s with the force \
-                rho c v A / 2 = 50 N, then the bar flies back with all the energy. Measured as for the rigid wall.",
+                rho c v A / 2 = 50 N, then the bar flies back with all the energy. Measured as for the rigid wall; the velocity is the mean over the bar.",
         scene: "bar-on-bar",
         sets: Vec::new(),
         ladders: vec![
@@ -59,7 +59,7 @@ pub fn on_a_clamped_bar() -> Case {
         measure: |ran| {
             let exact = bar_on_clamped_bar(1.0, 1.0, 1.0e6, 1.0e-4);
             let mut found = measure(ran, "force.joint.x", exact)?;
-            let back = ran.end("probe.striker.velocity.x")?;
+            let [back, _] = mean_velocities(ran);
             found.push(Found::exact("striker flies back", "m/s", back, -1.0e-4));
             Ok(found)
         },
