@@ -9,6 +9,7 @@ pub mod hertz;
 pub mod hu2022;
 pub mod indenters;
 pub mod mindlin;
+pub mod oblique;
 
 use crate::Case;
 
@@ -26,6 +27,7 @@ pub fn all() -> Vec<Case> {
         block::bouncing(),
         free_body::turning(),
         free_body::vibrating(),
+        oblique::oblique(),
         hu2022::indentation(),
         hu2022::wheel(),
         hu2022::plate_cylinder(),

@@ -1,6 +1,7 @@
 //! Closed forms, in SI units. `e_star` is `E / (1 - nu^2)`: an elastic body on a rigid one.
 
 mod dynamics;
+mod oblique;
 mod partial_slip;
 
 use std::f64::consts::PI;
@@ -9,6 +10,7 @@ pub use dynamics::{
     BarImpact, Stop, bar_exchange, bar_on_clamped_bar, bar_on_wall, bounce_height,
     bounce_rest_time, free_bar_period, sliding_stop, trapezoidal_period,
 };
+pub use oblique::{Oblique, Rebound};
 pub use partial_slip::{PartialSlip, under_ball, under_cylinder};
 
 /// Load \[N\], contact radius \[m\] and largest pressure \[Pa\] of a contact.

@@ -1,7 +1,7 @@
 //! Every built-in scene in a form that takes a second or two: what `cargo xtask regress` runs.
 
 use crate::Plan;
-use crate::cases::mindlin;
+use crate::cases::{mindlin, oblique};
 
 /// Scene and changed values; a coarser mesh where there is need, and an end after the things that matter have begun.
 const FORMS: &[(&str, &[&str])] = &[
@@ -50,6 +50,7 @@ const FORMS: &[(&str, &[&str])] = &[
     ("hertz-sphere", &["refine=1", "dt=0.25"]),
     ("mindlin-cylinder", &["refine=1", "time.dt=0.5"]),
     ("mindlin-sphere", &mindlin::FIVE),
+    ("oblique-impact", &oblique::COARSE),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
 

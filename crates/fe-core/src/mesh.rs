@@ -2,73 +2,16 @@
 
 pub mod generate;
 
+mod facet;
+mod kind;
+mod quadratic;
+
 use std::collections::BTreeMap;
 
-use crate::element::{self, Hex8, Quad4, Tet4, Tri3};
+pub use facet::{Facet, FacetKind};
+pub use kind::CellKind;
+
 use crate::error::MeshError;
-
-/// Shape of a cell, with VTK node order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum CellKind {
-    /// Trilinear hexahedron.
-    Hex8,
-    /// Linear tetrahedron.
-    Tet4,
-    /// Bilinear quadrilateral in the plane, counter-clockwise.
-    Quad4,
-    /// Linear triangle in the plane, counter-clockwise.
-    Tri3,
-}
-
-impl CellKind {
-    /// Nodes of a cell.
-    pub fn node_count(self) -> usize {
-        match self {
-            CellKind::Hex8 => 8,
-            CellKind::Tet4 | CellKind::Quad4 => 4,
-            CellKind::Tri3 => 3,
-        }
-    }
-
-    /// Dimension of the cell, 2 or 3.
-    pub const fn dim(self) -> usize {
-        match self {
-            CellKind::Hex8 | CellKind::Tet4 => 3,
-            CellKind::Quad4 | CellKind::Tri3 => 2,
-        }
-    }
-
-    /// Local nodes of each facet, outward as in [`Facet`].
-    pub fn facets(self) -> &'static [&'static [usize]] {
-        match self {
-            CellKind::Hex8 => &element::hex8::FACETS,
-            CellKind::Tet4 => &element::tet4::FACETS,
-            CellKind::Quad4 => &element::quad4::FACETS,
-            CellKind::Tri3 => &element::tri3::FACETS,
-        }
-    }
-
-    /// VTK's number for the cell type.
-    pub fn vtk_type(self) -> u8 {
-        match self {
-            CellKind::Hex8 => 12,
-            CellKind::Tet4 => 10,
-            CellKind::Quad4 => 9,
-            CellKind::Tri3 => 5,
-        }
-    }
-
-    /// First quadrature point whose Jacobian is not positive, with that Jacobian \[m^dim\].
-    fn bad_jacobian(self, points: &[[f64; 3]], cell: &[u32]) -> Option<(usize, f64)> {
-        match self {
-            CellKind::Hex8 => element::bad_jacobian::<Hex8, 8>(points, cell),
-            CellKind::Tet4 => element::bad_jacobian::<Tet4, 4>(points, cell),
-            CellKind::Quad4 => element::bad_jacobian::<Quad4, 4>(points, cell),
-            CellKind::Tri3 => element::bad_jacobian::<Tri3, 3>(points, cell),
-        }
-    }
-}
 
 /// What is the same all along a direction that the mesh does not have.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
@@ -133,65 +76,6 @@ impl CellBlock {
     /// The cells' node lists, in order.
     pub fn iter(&self) -> std::slice::ChunksExact<'_, u32> {
         self.cells.chunks_exact(self.kind.node_count())
-    }
-}
-
-/// A piece of boundary: 3 or 4 nodes in space, 2 in the plane.
-///
-/// Seen from outside the body the nodes turn counter-clockwise (right-hand rule); in the plane the
-/// body lies to the left of the way from the first node to the second.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Facet {
-    /// Node indices; entries from `count` on are `u32::MAX`.
-    pub nodes: [u32; 4],
-    /// Number of nodes: 2, 3 or 4.
-    pub count: u8,
-}
-
-impl Facet {
-    /// An edge of a plane body.
-    pub fn edge(nodes: [u32; 2]) -> Facet {
-        Facet {
-            nodes: [nodes[0], nodes[1], u32::MAX, u32::MAX],
-            count: 2,
-        }
-    }
-
-    /// A triangle.
-    pub fn triangle(nodes: [u32; 3]) -> Facet {
-        Facet {
-            nodes: [nodes[0], nodes[1], nodes[2], u32::MAX],
-            count: 3,
-        }
-    }
-
-    /// A quadrilateral.
-    pub fn quad(nodes: [u32; 4]) -> Facet {
-        Facet { nodes, count: 4 }
-    }
-
-    /// The nodes that are used.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes[..usize::from(self.count).min(4)]
-    }
-
-    /// Facet of a cell from its local node numbers.
-    fn of_cell(cell: &[u32], local: &[usize]) -> Facet {
-        let mut nodes = [u32::MAX; 4];
-        for (slot, &a) in nodes.iter_mut().zip(local) {
-            *slot = cell[a];
-        }
-        Facet {
-            nodes,
-            count: local.len() as u8,
-        }
-    }
-
-    /// Nodes in increasing order: equal for the two cells that share the facet.
-    fn key(&self) -> [u32; 4] {
-        let mut key = self.nodes;
-        key.sort_unstable();
-        key
     }
 }
 
@@ -273,7 +157,7 @@ impl Mesh {
         for block in &self.blocks {
             for cell in block.iter() {
                 for local in block.kind.facets() {
-                    let facet = Facet::of_cell(cell, local);
+                    let facet = Facet::of_cell(block.kind.facet_kind(), cell, local);
                     all.push((facet.key(), all.len(), facet));
                 }
             }
@@ -410,10 +294,9 @@ impl Mesh {
     }
 
     fn validate_facet_sets(&self) -> Result<(), MeshError> {
-        let counts = if self.dim == 2 { 2..=2 } else { 3..=4 };
         for (set, facets) in &self.facet_sets {
             let wrong = |facet: &Facet| {
-                !counts.contains(&facet.count)
+                facet.kind.dim() != self.dim
                     || facet
                         .nodes()
                         .iter()

@@ -205,9 +205,10 @@ impl Solid {
         MassMatrix::consistent(self)
     }
 
-    /// Diagonal mass matrix \[kg\]: the row sums of the consistent one, positive for linear elements.
+    /// Diagonal mass matrix \[kg\], positive: the row sums of the consistent one; elements of degree 2 share their mass
+    /// in the proportions of its diagonal.
     pub fn lumped_mass(&self) -> MassMatrix {
-        self.consistent_mass().lumped()
+        MassMatrix::lumped(self)
     }
 
     /// Entries of all element tangents.

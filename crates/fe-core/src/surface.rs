@@ -1,17 +1,23 @@
 //! Surfaces: facets with their nodes, areas, normals and neighbours.
 
+mod shares;
+
 use crate::error::FeError;
-use crate::mesh::{Facet, Mesh, Symmetry};
-use crate::quadrature::GAUSS_2;
+use crate::mesh::{Facet, Mesh};
 use crate::vector::{cross, dot, minus, norm, unit};
 
 /// A part of the boundary of one or more bodies.
+///
+/// Quadratic faces are cut between their nodes into facets of degree 1, which stand for them wherever a place or a
+/// normal on the surface is asked for: a curved face is then off by the square of the size of a facet, its nodes are not.
+/// Areas are those of the faces themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
-    /// Facets, outward.
+    /// Facets of degree 1, outward.
     pub facets: Vec<Facet>,
     /// Nodes of the facets, sorted, without repeats. "Surface index" means a position in this list.
     pub nodes: Vec<u32>,
+    faces: Vec<Facet>,
     dim: usize,
     corners: Vec<[u32; 4]>,
     offsets: Vec<u32>,
@@ -19,24 +25,22 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// A surface from outward facets.
+    /// A surface from outward faces.
     ///
     /// # Errors
-    /// [`FeError::Surface`] if there is no facet, or edges are mixed with triangles or quadrilaterals.
-    pub fn new(facets: Vec<Facet>) -> Result<Surface, FeError> {
+    /// [`FeError::Surface`] if there is no face, or edges are mixed with triangles or quadrilaterals.
+    pub fn new(faces: Vec<Facet>) -> Result<Surface, FeError> {
         let refuse = |reason| Err(FeError::Surface { reason });
-        if facets.is_empty() {
+        let Some(first) = faces.first() else {
             return refuse("it has no facets; name a facet set that is not empty");
-        }
-        if facets.iter().any(|f| !(2..=4).contains(&f.count)) {
-            return refuse("a facet has 2, 3 or 4 nodes");
-        }
-        let plane = facets[0].count == 2;
-        if facets.iter().any(|f| (f.count == 2) != plane) {
+        };
+        let dim = first.kind.dim();
+        if faces.iter().any(|face| face.kind.dim() != dim) {
             return refuse(
                 "edges of plane bodies cannot be mixed with triangles or quadrilaterals",
             );
         }
+        let facets: Vec<Facet> = faces.iter().flat_map(Facet::pieces).collect();
         let mut nodes: Vec<u32> = facets.iter().flat_map(|f| f.nodes().to_vec()).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -45,7 +49,8 @@ impl Surface {
         Ok(Surface {
             facets,
             nodes,
-            dim: if plane { 2 } else { 3 },
+            faces,
+            dim,
             corners,
             offsets,
             around,
@@ -72,16 +77,28 @@ impl Surface {
         &self.corners[facet][..self.facets[facet].nodes().len()]
     }
 
-    /// Area that belongs to each node: the integral of its shape function over the facets, per surface
-    /// index \[m^2\]; for one metre of thickness in plane strain, for the whole ring if axisymmetric.
+    /// Integral of each node's shape function over the faces, per surface index \[m^2\]: what a uniform traction
+    /// loads a node with. For one metre of thickness in plane strain, for the whole ring if axisymmetric. Corners of
+    /// quadratic triangles, and nodes on the axis at the end of a quadratic edge, get zero or nearly so, also negative.
     ///
     /// `mesh` is the whole mesh, of which only points and symmetry matter.
+    pub fn shape_integrals(&self, mesh: &Mesh) -> Vec<f64> {
+        self.sum_shares(mesh, |shares| shares)
+    }
+
+    /// Area that belongs to each node, never negative, per surface index \[m^2\]: [`Surface::shape_integrals`], in
+    /// which no face counts for a node that has less than 1 % of its integral; the other nodes of the face get that.
+    /// What acts per area acts on nodes with an area only.
     pub fn tributary_areas(&self, mesh: &Mesh) -> Vec<f64> {
+        self.sum_shares(mesh, shares::usable)
+    }
+
+    fn sum_shares(&self, mesh: &Mesh, change: impl Fn([f64; 9]) -> [f64; 9]) -> Vec<f64> {
         let mut areas = vec![0.0; self.nodes.len()];
-        for (facet, corners) in self.facets.iter().zip(&self.corners) {
-            let shares = facet_shares(facet, &mesh.points, mesh.symmetry);
-            for (share, &index) in shares.iter().zip(&corners[..facet.nodes().len()]) {
-                areas[index as usize] += share;
+        for face in &self.faces {
+            let shares = change(shares::shares(face, &mesh.points, mesh.symmetry));
+            for (node, share) in face.nodes().iter().zip(shares) {
+                areas[self.nodes.partition_point(|n| n < node)] += share;
             }
         }
         areas
@@ -157,47 +174,6 @@ fn facets_around_nodes(corners: &Vec<[u32; 4]>, nodes: usize) -> (Vec<u32>, Vec<
         }
     }
     (offsets, around)
-}
-
-/// Integral of each shape function over a facet \[m^2\]; unused entries are zero.
-fn facet_shares(facet: &Facet, points: &[[f64; 3]], symmetry: Symmetry) -> [f64; 4] {
-    let x = |m: usize| points[facet.nodes[m] as usize];
-    match facet.nodes().len() {
-        2 => {
-            let (a, b) = (x(0), x(1));
-            let half = 0.5 * (b[0] - a[0]).hypot(b[1] - a[1]);
-            // Exact for shape functions and a radius that are linear along the edge.
-            let share = |near: f64, far: f64| half * symmetry.extent((2.0 * near + far) / 3.0);
-            [share(a[0], b[0]), share(b[0], a[0]), 0.0, 0.0]
-        }
-        3 => {
-            let normal = cross(&minus(&x(1), &x(0)), &minus(&x(2), &x(0)));
-            let third = norm(&normal) / 6.0;
-            [third, third, third, 0.0]
-        }
-        _ => quad_shares(&[x(0), x(1), x(2), x(3)]),
-    }
-}
-
-/// Integral of the bilinear shape functions over a quadrilateral \[m^2\], 2x2 Gauss points: exact if flat.
-fn quad_shares(x: &[[f64; 3]; 4]) -> [f64; 4] {
-    let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    let mut shares = [0.0; 4];
-    for point in signs {
-        let [xi, eta] = [point[0] * GAUSS_2, point[1] * GAUSS_2];
-        let (mut along_xi, mut along_eta) = ([0.0; 3], [0.0; 3]);
-        for (x, s) in x.iter().zip(signs) {
-            for i in 0..3 {
-                along_xi[i] += 0.25 * s[0] * (1.0 + s[1] * eta) * x[i];
-                along_eta[i] += 0.25 * s[1] * (1.0 + s[0] * xi) * x[i];
-            }
-        }
-        let area = norm(&cross(&along_xi, &along_eta));
-        for (share, s) in shares.iter_mut().zip(signs) {
-            *share += 0.25 * (1.0 + s[0] * xi) * (1.0 + s[1] * eta) * area;
-        }
-    }
-    shares
 }
 
 /// Outward normal at corner `m` of a facet, as long as the angle there (1 for an edge).

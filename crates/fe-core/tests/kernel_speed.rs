@@ -22,7 +22,7 @@ fn best(items: usize, mut run: impl FnMut()) -> f64 {
 }
 
 fn block<M: Material>(kind: CellKind, material: M) -> (Box<dyn Block>, Vec<f64>) {
-    let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [8; 3])
+    let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [8 / kind.degree(); 3])
         .with_kind(kind)
         .generate("box")
         .unwrap();
@@ -42,7 +42,7 @@ fn plane_block<M: Material>(
     symmetry: Symmetry,
     material: M,
 ) -> (Box<dyn Block>, Vec<f64>) {
-    let mut mesh = RectangleMesh::uniform([0.0; 2], [1.0; 2], [24; 2])
+    let mut mesh = RectangleMesh::uniform([0.0; 2], [1.0; 2], [24 / kind.degree(); 2])
         .with_kind(kind)
         .generate("plate")
         .unwrap();
@@ -83,7 +83,12 @@ fn kernels() {
         .unwrap();
     let elastic = ElasticConstants::from_shear_lame(1.0, 1.0).unwrap();
     pool.install(|| {
-        for kind in [CellKind::Hex8, CellKind::Tet4] {
+        for kind in [
+            CellKind::Hex8,
+            CellKind::Tet4,
+            CellKind::Hex27,
+            CellKind::Tet10,
+        ] {
             measure("Blatz-Ko", kind, BlatzKo::new(1.0).unwrap());
             measure("neo-Hookean", kind, NeoHookean::new(elastic).unwrap());
             measure(
@@ -104,7 +109,12 @@ fn plane_kernels() {
         .unwrap();
     let elastic = ElasticConstants::from_shear_lame(1.0, 1.0).unwrap();
     pool.install(|| {
-        for kind in [CellKind::Quad4, CellKind::Tri3] {
+        for kind in [
+            CellKind::Quad4,
+            CellKind::Tri3,
+            CellKind::Quad9,
+            CellKind::Tri6,
+        ] {
             for symmetry in [Symmetry::PlaneStrain, Symmetry::Axisymmetric] {
                 let name = |law: &str| format!("{law}, {kind:?}, {symmetry:?}");
                 let (block, u) = plane_block(kind, symmetry, BlatzKo::new(1.0).unwrap());

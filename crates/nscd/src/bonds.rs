@@ -1,11 +1,11 @@
 //! Bonds from step to step: what a slave node remembers, turned with its master's material.
 
 use contact_bipotential::frame::{to_global, to_local};
-use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, material_axes};
+use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, Master, material_axes};
 
 use crate::contact::{ContactMemory, describe};
 use crate::error::{NscdError, StepFailure};
-use crate::law::in_frame;
+use crate::law::{in_frame, state_before};
 use crate::model::Model;
 use crate::scheme::ContactLevel;
 use crate::state::{NodeBond, State};
@@ -69,19 +69,38 @@ pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> 
         let separation = if node.separation == [0.0; 2] {
             [0.0; 2]
         } else {
-            let axes = material_axes(
-                interface,
-                node.facet,
-                &positions,
-                model.solid.dim(),
-                frame.end(),
-            );
+            let axes = stored_axes(frame, c, node, &positions);
             turned(node.separation, &axes, &c.frame)
         };
         let area = interface.area[c.slave_index];
+        if area == 0.0 {
+            return BondStep::none();
+        }
         BondStep::new(law, area, frame.dt, node.in_frame(separation), roundoff)
     };
     map.contacts.iter().map(one).collect()
+}
+
+/// The axes of what a bond remembers, where the master's material has taken them by the end of the step. On an obstacle they
+/// were the frame of the contact: any other normal to which the separation were turned could lie far from the contact's, and
+/// on the way there and back by another normal a vector turns about both.
+fn stored_axes(
+    frame: &StepFrame<'_>,
+    contact: &Contact,
+    node: &NodeBond,
+    positions: &[f64],
+) -> [[f64; 3]; 3] {
+    let interface = &frame.model.interfaces[contact.interface];
+    let dim = frame.model.solid.dim();
+    let axes = |t| material_axes(interface, node.facet, positions, dim, t);
+    let (then, end) = (axes(frame.now.time), axes(frame.end()));
+    let before = state_before(frame.now, (contact.interface, contact.slave_index));
+    match (&interface.master, before) {
+        (Master::Obstacle(_), Some(before)) => {
+            before.frame.map(|d| to_global(&end, to_local(&then, d)))
+        }
+        _ => end,
+    }
 }
 
 /// A tangential vector with components in the axes `from` (two tangents and their normal), in the axes `to`: turned with the
@@ -116,17 +135,20 @@ pub(crate) fn carry_on(
     let ends = trial.bonds.iter().zip(trial.x.chunks_exact(cone));
     for (c, (step, x)) in trial.map.contacts.iter().zip(ends) {
         let interface = &model.interfaces[c.interface];
-        if interface.adhesion.is_none() {
+        if interface.adhesion.is_none() || interface.area[c.slave_index] == 0.0 {
             continue;
         }
         let end = step.finish(&in_frame(x));
-        let axes = material_axes(
-            interface,
-            c.facet,
-            positions,
-            model.solid.dim(),
-            frame.end(),
-        );
+        let axes = match interface.master {
+            Master::Obstacle(_) => c.frame,
+            Master::Surface(_) => material_axes(
+                interface,
+                c.facet,
+                positions,
+                model.solid.dim(),
+                frame.end(),
+            ),
+        };
         bonds[c.interface][c.slave_index] = NodeBond {
             intensity: end.intensity,
             gap: end.gap,
@@ -192,9 +214,14 @@ impl Stepper<'_> {
         let positions = self.model.positions(u);
         let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         for c in self.detector.detect(&positions, 0.0, 0.0).contacts {
-            let Some(law) = &self.model.interfaces[c.interface].adhesion else {
+            let interface = &self.model.interfaces[c.interface];
+            let Some(law) = &interface.adhesion else {
                 continue;
             };
+            // A node without area has no bond.
+            if interface.area[c.slave_index] == 0.0 {
+                continue;
+            }
             let bond = &mut bonds[c.interface][c.slave_index];
             bond.gap = c.gap.max(0.0);
             bond.facet = c.facet;

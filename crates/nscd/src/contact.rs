@@ -10,14 +10,17 @@ use faer::Mat;
 
 use crate::body::BodySystem;
 use crate::error::StepFailure;
+use crate::held::{held, take_out};
 use crate::law::in_frame;
-use crate::lent::{Lent, lend};
 use crate::model::Model;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
 use crate::state::State;
 use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};
+
+/// Depth over the search distance that a contact on a rim may have although it is given up for the step \[-\].
+const RIM_DEPTH: f64 = 1e-6;
 
 /// What the contact solve remembers from iteration to iteration and from step to step. Nothing
 /// here decides a result: forces are a warm start, scales only weigh an error.
@@ -78,8 +81,9 @@ impl ContactMemory {
     }
 
     /// A node on the rim of a master can be lost by the search in one iteration and found in the
-    /// next, for ever. One that was lost twice while pressed stays lost for the step.
-    pub(crate) fn settle_rims(&mut self, map: ContactMap) -> ContactMap {
+    /// next, for ever. One that was lost twice while pressed stays lost for the step; the deepest of those that are back is
+    /// returned, for a step must not end with it.
+    pub(crate) fn settle_rims(&mut self, map: ContactMap) -> (ContactMap, Option<Contact>) {
         let cone = self.cone;
         for (interface, forces) in self.forces.iter().enumerate() {
             for (slave_index, r) in forces.chunks_exact(cone).enumerate() {
@@ -91,7 +95,28 @@ impl ContactMemory {
                 }
             }
         }
-        filtered(&map, |_, c| self.lost[c.interface][c.slave_index] < 2)
+        let stays = |c: &Contact| self.lost[c.interface][c.slave_index] < 2;
+        let back = map.contacts.iter().filter(|c| !stays(c));
+        let deepest = back.min_by(|a, b| a.gap.total_cmp(&b.gap)).copied();
+        (filtered(&map, |_, c| stays(c)), deepest)
+    }
+
+    /// Refuses the end of a step at which a contact that was given up lies in its master.
+    pub(crate) fn refuse_unsettled(
+        &self,
+        frame: &StepFrame<'_>,
+        trial: &Trial,
+    ) -> Result<(), StepFailure> {
+        let Some(contact) = trial.given_up else {
+            return Ok(());
+        };
+        let reach = frame.model.interfaces[contact.interface].search_distance;
+        if contact.gap >= -RIM_DEPTH * reach {
+            return Ok(());
+        }
+        Err(StepFailure::Rim {
+            contact: name_of(frame.model, &contact),
+        })
     }
 
     /// Starts a step from the forces of the last accepted one.
@@ -200,18 +225,46 @@ fn enters(model: &Model, trial: &Trial, cone: usize, free: &[f64], acts: &[bool]
         .collect()
 }
 
+/// A contact between nodes that are driven on both sides has no compliance: no force of it can mend a penetration.
+fn refuse_immovable(
+    model: &Model,
+    trial: &Trial,
+    map: &ContactMap,
+    w: &Mat<f64>,
+    q: &[f64],
+) -> Result<(), StepFailure> {
+    let cone = map.cone().dim();
+    let normal = |k: usize| cone * k + cone - 1;
+    let closed = (0..map.len()).filter(|&k| w[(normal(k), normal(k))] == 0.0 && q[normal(k)] < 0.0);
+    let deepest = closed.min_by(|a, b| q[normal(*a)].total_cmp(&q[normal(*b)]));
+    let Some(deepest) = deepest else {
+        return Ok(());
+    };
+    let positions = model.positions(&trial.u);
+    let roundoff = 64.0 * f64::EPSILON * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let depth = -q[normal(deepest)];
+    if depth <= roundoff {
+        return Ok(());
+    }
+    Err(StepFailure::Immovable {
+        contact: describe(model, map, deepest),
+        depth,
+    })
+}
+
 /// The contact problem of one iteration: which forces, together with the residual, make the
 /// linearised bodies obey the contact law.
 #[derive(Debug)]
 pub(crate) struct LinearisedContact {
     map: ContactMap,
     problem: ContactProblem,
-    /// What [`lend`] has put into `problem.w`.
-    lent: Vec<Lent>,
+    /// `W` before held directions were taken out of it; `None` where there are none.
+    whole: Option<Mat<f64>>,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
-    /// Warm start.
+    /// Warm start: forces, and positions.
     r: Vec<f64>,
+    x: Vec<f64>,
 }
 
 impl LinearisedContact {
@@ -243,8 +296,11 @@ impl LinearisedContact {
                 .collect()
         };
         let mut w = memory.operator(&map, bodies);
-        let q = select(&free);
-        let lent = lend(&mut w, &q, cone);
+        let mut q = select(&free);
+        refuse_immovable(model, trial, &map, &w, &q)?;
+        let held = held(&w, &q, cone);
+        let whole = (!held.is_empty()).then(|| w.clone());
+        take_out(&held, &mut w, &mut q, cone);
         let mu = map
             .contacts
             .iter()
@@ -263,9 +319,10 @@ impl LinearisedContact {
         }
         Ok(Self {
             r: select(&trial.r),
+            x: select(&trial.x),
             map,
             problem,
-            lent,
+            whole,
             bonds,
         })
     }
@@ -284,6 +341,7 @@ impl LinearisedContact {
             ..SolveSettings::default()
         };
         let solver = &mut memory.solver;
+        solver.start_near(&self.problem, &self.bonds, &self.x, &mut self.r);
         let outcome = solver.solve(&self.problem, &self.bonds, &mut self.r, &settings);
         counters.contact_solves += 1;
         counters.bonded_solves += u64::from(!self.bonds.is_empty());
@@ -344,8 +402,8 @@ impl ContactMemory {
     }
 
     fn keep_operator(&mut self, last: LinearisedContact, x: &[f64]) {
-        if let Delassus::Dense(mut w) = last.problem.w {
-            last.lent.iter().for_each(|lent| lent.take_back(&mut w));
+        if let Delassus::Dense(w) = last.problem.w {
+            let w = last.whole.unwrap_or(w);
             let at = last.bonds.iter().zip(x.chunks_exact(self.cone));
             self.kept = Some(KeptOperator {
                 contacts: last.map.contacts,
@@ -399,13 +457,14 @@ fn same_operator(a: &[Contact], b: &[Contact]) -> bool {
 
 /// Names a contact for an error message.
 pub(crate) fn describe(model: &Model, map: &ContactMap, index: usize) -> String {
-    map.contacts.get(index).map_or_else(
-        || "no contact".to_owned(),
-        |c| {
-            format!(
-                "node {} of interface \"{}\" (gap {:e} m)",
-                c.slave, model.interfaces[c.interface].name, c.gap
-            )
-        },
+    let contact = map.contacts.get(index);
+    contact.map_or_else(|| "no contact".to_owned(), |c| name_of(model, c))
+}
+
+fn name_of(model: &Model, c: &Contact) -> String {
+    let interface = &model.interfaces[c.interface].name;
+    format!(
+        "node {} of interface \"{interface}\" (gap {:e} m)",
+        c.slave, c.gap
     )
 }

@@ -20,9 +20,12 @@ impl Stepper<'_> {
         check: &Check,
     ) -> (State, StepReport) {
         let model = frame.model;
-        if model.scheme.contact == ContactLevel::Velocity && !trial.map.contacts.is_empty() {
-            self.end_gaps(frame, &mut trial);
-        }
+        let unforeseen = match model.scheme.contact {
+            ContactLevel::Velocity if !model.interfaces.is_empty() => {
+                self.end_gaps(frame, &mut trial)
+            }
+            _ => 0.0,
+        };
         let support_force: Vec<f64> = (0..trial.u.len())
             .map(|i| {
                 if self.fixed[i] {
@@ -54,7 +57,7 @@ impl Stepper<'_> {
                 .iter()
                 .filter(|c| c.status != ContactStatus::Open || c.gap <= touching)
                 .count(),
-            penetration: contacts.iter().map(|c| -c.gap).fold(0.0, f64::max),
+            penetration: contacts.iter().map(|c| -c.gap).fold(unforeseen, f64::max),
             energy,
             interfaces: interface_resultants(
                 model.interfaces.len(),

@@ -134,6 +134,26 @@ pub enum StepFailure {
         /// Relative residual after refinement.
         residual: f64,
     },
+    /// A contact on the rim of a deformable master came and went with the iterations.
+    #[error(
+        "{contact} lies on the rim of its master and is lost and found again in turn; try smaller steps, or a master that reaches \
+         farther than its slave"
+    )]
+    Rim {
+        /// The contact.
+        contact: String,
+    },
+    /// Slave and master are both driven into each other.
+    #[error(
+        "{contact} is driven {depth:e} m into its master, and neither can give way: all unknowns on both sides are prescribed; \
+         free some of them, or change the motion"
+    )]
+    Immovable {
+        /// The contact.
+        contact: String,
+        /// How deep it would be \[m\], or the depth that stands for the velocity at the velocity level.
+        depth: f64,
+    },
     /// The compliance of a surface does not fit the mesh.
     #[error(transparent)]
     Surface(#[from] contact_bipotential::GeometryError),

@@ -41,8 +41,9 @@ impl Stepper<'_> {
         interfaces.map(|i| i.search_distance).fold(0.0, f64::max)
     }
 
-    /// Gaps at the end of a step at the velocity level, where the contacts keep their predicted frames.
-    pub(crate) fn end_gaps(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) {
+    /// Gaps at the end of a step at the velocity level, where the contacts keep their predicted frames. Returns the deepest
+    /// penetration of any slave node \[m\], of those too that no contact was predicted for.
+    pub(crate) fn end_gaps(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) -> f64 {
         let end = self.detect(frame, &trial.u);
         for c in &mut trial.map.contacts {
             let key = (c.interface, c.slave_index);
@@ -53,6 +54,7 @@ impl Stepper<'_> {
                 c.gap = end.contacts[k].gap;
             }
         }
+        end.contacts.iter().map(|c| -c.gap).fold(0.0, f64::max)
     }
 
     /// A slave that crosses more than the reach of the search in one step could pass through its

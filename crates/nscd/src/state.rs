@@ -76,7 +76,8 @@ pub struct NodeBond {
     pub intensity: f64,
     /// Gap, not negative \[m\].
     pub gap: f64,
-    /// Tangential separation since bonding, along two axes that turn with the master's material \[m\].
+    /// Tangential separation since bonding \[m\]: along the tangents of the contact's frame on an obstacle, of the facet's own
+    /// axes on a deformable master. Both turn with the master's material.
     pub separation: [f64; 2],
     /// Facet of the master to which those axes belong; `None` for an obstacle.
     pub facet: Option<u32>,

@@ -52,7 +52,12 @@ impl<'m> Stepper<'m> {
         };
         refuse_unsupported(model, &fixed)?;
         refuse_velocity_level(model)?;
-        let bodies = (0..model.solid.bodies().len())
+        let dim = model.solid.dim();
+        let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
+        let all = model.solid.bodies();
+        // A body that is driven as a whole has no system to solve.
+        let bodies = (0..all.len())
+            .filter(|&b| all[b].iter().any(unknown))
             .map(|b| BodySystem::new(&model.solid, graph, b, &fixed, &candidate))
             .collect::<Result<_, _>>()?;
         let mut work = model.solid.workspace();
@@ -136,6 +141,7 @@ impl<'m> Stepper<'m> {
             let check = monitor.check(self, &frame, &trial)?;
             if check.converged {
                 self.refuse_tunnelling(&frame, &trial)?;
+                self.memory.refuse_unsettled(&frame, &trial)?;
                 self.memory.refuse_snap(&frame, &trial)?;
                 return Ok(self.accept(&frame, trial, &check));
             }
@@ -168,6 +174,7 @@ impl<'m> Stepper<'m> {
             damping_force: zeros(),
             balance: zeros(),
             map: ContactMap::new(Vec::new(), self.model.solid.dim(), cone_of(self.model)),
+            given_up: None,
             bonds: Vec::new(),
             x: Vec::new(),
             r: Vec::new(),
@@ -225,7 +232,7 @@ impl<'m> Stepper<'m> {
         if self.model.scheme.contact == ContactLevel::Position && !self.model.interfaces.is_empty()
         {
             let found = self.detect(frame, &trial.u);
-            trial.map = self.memory.settle_rims(found);
+            (trial.map, trial.given_up) = self.memory.settle_rims(found);
             trial.bonds = bond_steps(frame, &trial.map, &trial.u);
         }
         trial.x = local_variable(frame, &trial.map, self.memory.cone, &trial.u, &trial.v);

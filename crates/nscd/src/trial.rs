@@ -1,6 +1,6 @@
 //! One step in the making: its constants, and the iterate that Newton improves.
 
-use contact_bipotential::{BondStep, ContactMap};
+use contact_bipotential::{BondStep, Contact, ContactMap};
 use fe_core::ElementWorkspace;
 
 use crate::model::Model;
@@ -34,6 +34,8 @@ pub(crate) struct Trial {
     pub(crate) balance: Vec<f64>,
     /// Candidate contacts at the iterate.
     pub(crate) map: ContactMap,
+    /// The deepest of the contacts at the iterate that are left out because they come and go with the iterations.
+    pub(crate) given_up: Option<Contact>,
     /// Bond of each candidate over the step; empty where no interface has adhesion.
     pub(crate) bonds: Vec<BondStep>,
     /// Local variable of the contact law of each candidate (slip and gap) \[m\].
@@ -85,11 +87,16 @@ impl<'a> StepFrame<'a> {
                 (1.0 - xi) * start + xi * external_force[i]
             })
             .collect();
+        let mut weights = model.scheme.weights(dt);
+        if model.damping.is_none() {
+            // A factor holds for any step that changes nothing in it.
+            weights.damping = 0.0;
+        }
         Self {
             model,
             now,
             dt,
-            weights: model.scheme.weights(dt),
+            weights,
             external_force,
             constant_force,
             start_damping,
@@ -246,6 +253,7 @@ mod tests {
             damping_force: vec![0.0; n],
             balance: vec![0.0; n],
             map: empty,
+            given_up: None,
             bonds: Vec::new(),
             x: Vec::new(),
             r: Vec::new(),

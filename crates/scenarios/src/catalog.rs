@@ -40,6 +40,10 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/free-body.ron"),
     },
     Entry {
+        name: "oblique-impact",
+        text: include_str!("../scenes/oblique-impact.ron"),
+    },
+    Entry {
         name: "press-twist",
         text: include_str!("../scenes/press-twist.ron"),
     },
@@ -70,6 +74,18 @@ pub const SCENES: &[Entry] = &[
     Entry {
         name: "debonding",
         text: include_str!("../scenes/debonding.ron"),
+    },
+    Entry {
+        name: "pull-off",
+        text: include_str!("../scenes/pull-off.ron"),
+    },
+    Entry {
+        name: "peel",
+        text: include_str!("../scenes/peel.ron"),
+    },
+    Entry {
+        name: "plate-pull",
+        text: include_str!("../scenes/plate-pull.ron"),
     },
     Entry {
         name: "cone",

@@ -65,6 +65,10 @@ impl Fields {
             CellKind::Tri3 => CellShape::Tri3,
             CellKind::Quad4 => CellShape::Quad4,
             CellKind::Tet4 => CellShape::Tet4,
+            CellKind::Tri6 => CellShape::Tri6,
+            CellKind::Quad9 => CellShape::Quad9,
+            CellKind::Tet10 => CellShape::Tet10,
+            CellKind::Hex27 => CellShape::Hex27,
             _ => CellShape::Hex8,
         };
         let array = |name, values| Array { name, values };

@@ -17,5 +17,8 @@ mod energy;
 mod impact;
 mod patch;
 mod program;
+mod quadratic_contact;
+mod rates;
 mod rigid;
+mod robust;
 mod twist;

@@ -32,9 +32,28 @@ pub fn sphere() -> Case {
                 20 elements on the radius of contact.",
         scene: "hertz-sphere",
         sets: Vec::new(),
-        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[])],
+        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[]), domains()],
         measure: |ran| compare(ran, "force.contact.y", 1.0, &ball_at),
     }
+}
+
+/// Blocks of other sizes, as wide \[m\] and high \[m\] as this.
+fn domains() -> Ladder {
+    let sizes = [(0.1, 0.1), (0.1, 0.2), (0.4, 0.4), (4.0, 4.0)];
+    let with = |ladder: Ladder, (width, height): &(f64, f64)| {
+        let axis = |name, to: f64, core: f64, cells| {
+            format!(
+                "block.mesh.{name}.pieces=[Cells(to: {core:e}, cells: {cells}), Growing(to: {to:e}, growth: 1.2)]"
+            )
+        };
+        let sets = [
+            axis("x", *width, 1.3e-3, 13),
+            axis("y", -height, -0.8e-3, 8),
+        ];
+        let label = format!("{} a wide, {} a high", 1e3 * width, 1e3 * height);
+        ladder.rung(label, 0.1 / width, &sets.each_ref().map(String::as_str))
+    };
+    sizes.iter().fold(Ladder::new("block"), with)
 }
 
 /// A ball in space.

@@ -14,10 +14,14 @@ pub fn cylinder() -> Case {
     Case {
         name: "mindlin-cylinder",
         about: "Partial slip under a cylinder: radius of the part that sticks, energy lost in a cycle, half-width of contact and largest \
-                pressure under the load that is found. refine = 2 has 20 elements on the half-width.",
+                pressure under the load that is found. refine = 3 has 30 elements on the half-width. The last node that sticks jumps by one when \
+                the load grows: the loss has teeth of the order of h/a.",
         scene: "mindlin-cylinder",
         sets: Vec::new(),
-        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[])],
+        ladders: vec![
+            Ladder::over_refine("mesh", &[1, 2, 3, 4], &[]),
+            amplitudes(&["7.0e-7", "8.5e-7", "1.15e-6"]),
+        ],
         measure: |ran| {
             let loads = Loads::of(ran, "force.contact.y", 1.0)?;
             let radius = (4.0 * loads.normal / (PI * E_STAR)).sqrt();
@@ -40,6 +44,7 @@ pub fn sphere() -> Case {
             Ladder::new("mesh")
                 .rung("5 on the radius", 1.6, &FIVE)
                 .rung("8 on the radius (the scene)", 1.0, &[]),
+            amplitudes(&["1.8e-7", "2.2e-7", "2.8e-7"]),
         ],
         measure: |ran| {
             let loads = Loads::of(ran, "force.contact.z", 2.0)?;
@@ -49,6 +54,17 @@ pub fn sphere() -> Case {
             compare(ran, 2.0, radius, pressure, &exact)
         },
     }
+}
+
+/// The scene with other ways to the side and back \[m\].
+fn amplitudes(ways: &[&str]) -> Ladder {
+    let with = |ladder: Ladder, way: &&str| {
+        let set = format!(
+            "top.motion.translation.0=[(1.0, 0.0), (2.0, {way}), (4.0, -{way}), (6.0, {way})]"
+        );
+        ladder.rung(format!("{way} m to each side"), 1.0, &[set.as_str()])
+    };
+    ways.iter().fold(Ladder::new("load"), with)
 }
 
 /// The mesh of `mindlin-sphere` with 5 elements on the radius of contact.

@@ -161,7 +161,7 @@ fn bonds(runs: &[Ran]) -> Result<String, String> {
     }
     text += "\n**Agrees:** nodes debond in the order in which the wheel turns, bonds form again in the next half turn, and while they form beta does \
              not depend on G.\n\n**Differs:** in the paper a stiffer wheel debonds clearly earlier; here the order in G is the same but the difference is \
-             hundredths of a millisecond, less than the step of this run (a finer look: docs/verification/adhesion.md and its tests), since bonds of C_n = 2e9 N/m^3 on a rim \
+             hundredths of a millisecond, less than the step of this run (a finer look: docs/verification/precision/wheel.md), since bonds of C_n = 2e9 N/m^3 on a rim \
              spacing of 0.25 mm are a twentieth as stiff as the rim. Forces are per metre of thickness; a node that meets the upper plate half a turn later shows its bonds there.";
     Ok(text)
 }

@@ -350,6 +350,10 @@ where
         N
     }
 
+    fn degree(&self) -> usize {
+        E::KIND.degree()
+    }
+
     fn connectivity(&self) -> &[u32] {
         &self.connectivity
     }

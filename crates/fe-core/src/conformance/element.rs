@@ -3,11 +3,12 @@
 use super::{ROUND_OFF, Violation, same, same_entries};
 use crate::element::{Element, jacobian};
 use crate::kinematics::determinant;
+use crate::mesh::Facet;
 use crate::quadrature::QuadraturePoint;
 use crate::vector::{cross, dot, minus};
 
-/// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields, and
-/// have the right derivatives; both rules measure the volume; facets are closed and point outward.
+/// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields
+/// (quadratic ones from degree 2), and have the right derivatives; both rules measure the volume; facets are closed and point outward.
 ///
 /// # Errors
 /// The first [`Violation`] found.
@@ -51,10 +52,18 @@ where
     let (shape, derivatives) = (E::shape(xi), E::shape_derivatives(xi));
     let total = shape.iter().sum();
     same("partition of unity", place, total, 1.0, ROUND_OFF)?;
-    for i in 0..3 {
+    let interpolated = |f: &dyn Fn(&[f64; 3]) -> f64| -> f64 {
         let nodes = E::reference_nodes().iter();
-        let found = nodes.zip(&shape).map(|(x, n)| n * x[i]).sum();
+        nodes.zip(&shape).map(|(x, n)| n * f(x)).sum()
+    };
+    for i in 0..3 {
+        let found = interpolated(&|x| x[i]);
         same("linear completeness", place, found, xi[i], ROUND_OFF)?;
+        for j in (0..3).filter(|_| E::KIND.degree() == 2) {
+            let found = interpolated(&|x| x[i] * x[j]);
+            let expected = xi[i] * xi[j];
+            same("quadratic completeness", place, found, expected, ROUND_OFF)?;
+        }
         let h = 1e-5;
         let at = |step: f64| {
             let mut moved = *xi;
@@ -83,18 +92,22 @@ where
     E: Element<Nodal = [f64; N]>,
 {
     let x: [[f64; 3]; N] = std::array::from_fn(|a| E::reference_nodes()[a]);
+    let local: Vec<u32> = (0..N as u32).collect();
     let mut area = [0.0; 3];
     let mut flux = 0.0;
-    for facet in E::KIND.facets() {
+    // Straight edges, and flat facets as fans of triangles around their first node.
+    let facets = E::KIND.facets().iter();
+    let facets = facets.map(|facet| Facet::of_cell(E::KIND.facet_kind(), &local, facet));
+    for piece in facets.flat_map(|facet| facet.pieces().collect::<Vec<_>>()) {
+        let node = |m: usize| x[piece.nodes[m] as usize];
         if E::KIND.dim() == 2 {
-            let [p, q] = [facet[0], facet[1]].map(|a| x[a]);
+            let (p, q) = (node(0), node(1));
             let normal = [q[1] - p[1], p[0] - q[0], 0.0];
             (0..3).for_each(|i| area[i] += normal[i]);
             flux += dot(&p, &normal);
         }
-        // Flat facets, as a fan of triangles around their first node; an edge has none.
-        for pair in facet[1..].windows(2) {
-            let [p, q, r] = [facet[0], pair[0], pair[1]].map(|a| x[a]);
+        for m in 2..piece.nodes().len() {
+            let (p, q, r) = (node(0), node(m - 1), node(m));
             let normal = cross(&minus(&q, &p), &minus(&r, &p));
             (0..3).for_each(|i| area[i] += 0.5 * normal[i]);
             flux += 0.5 * dot(&p, &normal);

@@ -22,7 +22,7 @@ pub use rectangle::RectangleMesh;
 
 use super::{CellBlock, CellKind, Facet, Mesh, Symmetry};
 use crate::error::MeshError;
-use crate::vector::{dot, minus};
+use crate::vector::{dot, minus, norm, unit};
 
 /// Where the dome of a half body points along its last axis: y in the plane, z in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -134,6 +134,54 @@ fn name_side(mesh: &mut Mesh, boundary: &[Facet], name: &str, belongs: impl Fn(u
     nodes.dedup();
     mesh.node_sets.insert(name.to_owned(), nodes);
     mesh.facet_sets.insert(name.to_owned(), facets);
+}
+
+/// Refuses another kind of cells than `of`, quadrilaterals or hexahedra, or its quadratic form.
+fn check_shape_kind(shape: &'static str, kind: CellKind, of: CellKind) -> Result<(), MeshError> {
+    if kind.linear() == of {
+        return Ok(());
+    }
+    Err(MeshError::Kind {
+        shape,
+        kind,
+        known: [of, of.quadratic()],
+    })
+}
+
+/// Other cells in a mesh of quadrilaterals or hexahedra: cut into triangles, of degree 2.
+///
+/// A new node whose corners all belong to `round` goes to the sphere around `center` \[m\] with the mean of their radii.
+fn into_kind(
+    mut mesh: Mesh,
+    kind: CellKind,
+    center: [f64; 3],
+    round: impl Fn(u32) -> bool,
+) -> Result<Mesh, MeshError> {
+    if kind.linear() == CellKind::Tri3 {
+        mesh.blocks[0].cells = triangles(&mesh.points, &mesh.blocks[0].cells);
+        mesh.blocks[0].kind = CellKind::Tri3;
+    }
+    if kind.degree() == 1 {
+        return Ok(mesh);
+    }
+    let radius = |x: &[f64; 3]| norm(&minus(x, &center));
+    mesh.quadratic_at(|corners, x| {
+        if !corners.iter().all(|&corner| round(corner)) {
+            return x;
+        }
+        let radii = corners.iter().map(|&n| radius(&mesh.points[n as usize]));
+        let mean = radii.sum::<f64>() / corners.len() as f64;
+        let direction = unit(&minus(&x, &center));
+        std::array::from_fn(|i| center[i] + mean * direction[i])
+    })
+}
+
+/// The mesh, or that of quadratic cells with straight edges.
+fn of_degree(degree: usize, mesh: Mesh) -> Result<Mesh, MeshError> {
+    match degree {
+        1 => Ok(mesh),
+        _ => mesh.quadratic(),
+    }
 }
 
 /// Cuts quadrilaterals along their shorter diagonal into triangles.

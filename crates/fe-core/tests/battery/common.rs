@@ -4,8 +4,18 @@ use fe_core::{BoxMesh, CellKind, Mesh, RectangleMesh, Solid, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean};
 use proptest::prelude::*;
 
-pub(crate) const KINDS: [CellKind; 2] = [CellKind::Hex8, CellKind::Tet4];
-pub(crate) const PLANE_KINDS: [CellKind; 2] = [CellKind::Quad4, CellKind::Tri3];
+pub(crate) const KINDS: [CellKind; 4] = [
+    CellKind::Hex8,
+    CellKind::Tet4,
+    CellKind::Hex27,
+    CellKind::Tet10,
+];
+pub(crate) const PLANE_KINDS: [CellKind; 4] = [
+    CellKind::Quad4,
+    CellKind::Tri3,
+    CellKind::Quad9,
+    CellKind::Tri6,
+];
 
 pub(crate) fn neo_hookean() -> NeoHookean {
     NeoHookean::new(ElasticConstants::from_shear_lame(1.0, 2.0).unwrap()).unwrap()
@@ -15,7 +25,7 @@ pub(crate) fn blatz_ko() -> BlatzKo {
     BlatzKo::new(1.5).unwrap()
 }
 
-/// A box with sides 1, 1.2 and 0.8, its nodes moved by up to `jitter` of the smallest cell; boundary nodes too
+/// A box with sides 1, 1.2 and 0.8, its corners moved by up to `jitter` of the smallest cell; boundary nodes too
 /// if asked.
 pub(crate) fn distorted_box(
     cells: [usize; 3],
@@ -25,7 +35,7 @@ pub(crate) fn distorted_box(
 ) -> Mesh {
     let max = [1.0, 1.2, 0.8];
     let mut mesh = BoxMesh::uniform([0.0; 3], max, cells)
-        .with_kind(kind)
+        .with_kind(kind.linear())
         .generate("box")
         .unwrap();
     let cell = (0..3)
@@ -39,10 +49,10 @@ pub(crate) fn distorted_box(
             }
         }
     }
-    mesh
+    of_degree(kind.degree(), mesh)
 }
 
-/// A rectangle from (0.3, 0) to (1.3, 1.2) in plane strain, its nodes moved by up to `jitter` of the smallest cell;
+/// A rectangle from (0.3, 0) to (1.3, 1.2) in plane strain, its corners moved by up to `jitter` of the smallest cell;
 /// boundary nodes too if asked.
 pub(crate) fn distorted_rectangle(
     cells: [usize; 2],
@@ -52,7 +62,7 @@ pub(crate) fn distorted_rectangle(
 ) -> Mesh {
     let (min, max) = ([0.3, 0.0], [1.3, 1.2]);
     let mut mesh = RectangleMesh::uniform(min, max, cells)
-        .with_kind(kind)
+        .with_kind(kind.linear())
         .generate("rectangle")
         .unwrap();
     let cell = (1.0 / cells[0] as f64).min(1.2 / cells[1] as f64);
@@ -62,6 +72,37 @@ pub(crate) fn distorted_rectangle(
             for (i, x) in x[..2].iter_mut().enumerate() {
                 *x += jitter * cell * (1.7 * node as f64 + 2.9 * i as f64).sin();
             }
+        }
+    }
+    of_degree(kind.degree(), mesh)
+}
+
+fn of_degree(degree: usize, mesh: Mesh) -> Mesh {
+    match degree {
+        1 => mesh,
+        _ => mesh.quadratic().unwrap(),
+    }
+}
+
+/// The mesh with curved cells: nodes inside the body that are no corners move by up to `by` \[m\].
+pub(crate) fn curved(mut mesh: Mesh, by: f64) -> Mesh {
+    let mut held = vec![false; mesh.points.len()];
+    let kind = mesh.blocks[0].kind;
+    for cell in mesh.blocks[0].iter() {
+        let corners = &cell[..kind.linear().node_count()];
+        corners.iter().for_each(|&n| held[n as usize] = true);
+    }
+    let boundary = mesh.boundary_facets();
+    let outer = boundary.iter().flat_map(|f| f.nodes());
+    outer.for_each(|&n| held[n as usize] = true);
+    for (node, x) in mesh
+        .points
+        .iter_mut()
+        .enumerate()
+        .filter(|(n, _)| !held[*n])
+    {
+        for (i, x) in x[..kind.dim()].iter_mut().enumerate() {
+            *x += by * (2.3 * node as f64 + 1.9 * i as f64).sin();
         }
     }
     mesh

@@ -126,7 +126,7 @@ proptest! {
             let mesh = GridMesh { axes: axes[..dim].to_vec(), refine, kind }.generate("a").unwrap();
             mesh.validate().unwrap();
             let n: Vec<usize> = axes[..dim].iter().map(|axis| axis.cells().unwrap() * refine).collect();
-            prop_assert_eq!(mesh.points.len(), n.iter().map(|n| n + 1).product::<usize>());
+            prop_assert_eq!(mesh.points.len(), n.iter().map(|n| kind.degree() * n + 1).product::<usize>());
             let names = &["x_min", "x_max", "y_min", "y_max", "z_min", "z_max"][..2 * dim];
             for (side, name) in names.iter().enumerate() {
                 let at = if side % 2 == 0 { -4.0 } else { -1.0 };

@@ -11,6 +11,7 @@ mod locking;
 mod meshes;
 mod plane;
 mod projected;
+mod quadratic;
 mod shape_bounds;
 mod shapes;
 mod surfaces;

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use fe_core::{BoxMesh, CellKind, Facet, Mesh, MeshError, RectangleMesh, Symmetry};
+use fe_core::{BoxMesh, CellKind, Facet, FacetKind, Mesh, MeshError, RectangleMesh, Symmetry};
 use proptest::prelude::*;
 
 use crate::common::KINDS;
@@ -15,21 +15,27 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Area vector of a flat facet, as a fan of triangles.
+/// Area vector of a flat facet, as fans of triangles.
 fn area(mesh: &Mesh, facet: &Facet) -> [f64; 3] {
-    let x = |m: usize| mesh.points[facet.nodes()[m] as usize];
     let minus = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] - b[i]);
     let mut sum = [0.0; 3];
-    for m in 1..facet.nodes().len() - 1 {
-        let normal = cross(minus(x(m), x(0)), minus(x(m + 1), x(0)));
-        (0..3).for_each(|i| sum[i] += 0.5 * normal[i]);
+    for piece in facet.pieces() {
+        let x = |m: usize| mesh.points[piece.nodes()[m] as usize];
+        for m in 1..piece.nodes().len() - 1 {
+            let normal = cross(minus(x(m), x(0)), minus(x(m + 1), x(0)));
+            (0..3).for_each(|i| sum[i] += 0.5 * normal[i]);
+        }
     }
     sum
 }
 
-/// Nodes of a facet from the lowest, in its sense of rotation.
+/// Corners of a facet from the lowest, in its sense of rotation.
 fn canonical(facet: &Facet) -> Vec<u32> {
-    let mut nodes = facet.nodes().to_vec();
+    let corners = match facet.kind {
+        FacetKind::Quad4 | FacetKind::Quad9 => 4,
+        _ => 3,
+    };
+    let mut nodes = facet.nodes()[..corners].to_vec();
     let lowest = (0..nodes.len()).min_by_key(|&m| nodes[m]).unwrap();
     nodes.rotate_left(lowest);
     nodes
@@ -37,15 +43,15 @@ fn canonical(facet: &Facet) -> Vec<u32> {
 
 fn any_box() -> impl Strategy<Value = BoxMesh> {
     let grading = prop::array::uniform3(0.2..5.0_f64);
-    (prop::array::uniform3(1..4_usize), grading, 0..2_usize).prop_map(|(cells, grading, kind)| {
-        BoxMesh {
+    (prop::array::uniform3(1..4_usize), grading, 0..KINDS.len()).prop_map(
+        |(cells, grading, kind)| BoxMesh {
             min: [-1.0, 0.5, 2.0],
             max: [1.0, 1.5, 5.0],
             cells,
             grading,
             kind: KINDS[kind],
-        }
-    })
+        },
+    )
 }
 
 proptest! {
@@ -189,7 +195,7 @@ fn defects_are_found_and_named() {
     assert!(matches!(unsorted, MeshError::NodeSet { .. }));
     let far = defect(&|m| m.node_sets.get_mut("all").unwrap().push(99));
     assert!(matches!(far, MeshError::NodeSet { node: 99, .. }));
-    let facet = defect(&|m| m.facet_sets.get_mut("x_min").unwrap()[0].count = 2);
+    let facet = defect(&|m| m.facet_sets.get_mut("x_min").unwrap()[0].kind = FacetKind::Edge2);
     assert!(matches!(facet, MeshError::FacetSet { facet: 0, .. }));
     let facet = defect(&|m| m.facet_sets.get_mut("x_min").unwrap()[0].nodes[0] = 77);
     assert!(matches!(facet, MeshError::FacetSet { .. }));

@@ -57,7 +57,9 @@ fn patch_test_on_distorted_meshes() {
         for (mesh, gradient) in [(flat, shear), (rings, diagonal)] {
             let soft = common::solid(mesh.clone(), blatz_ko(), 1.0);
             conformance::check_patch(&soft, &gradient).unwrap();
-            conformance::check_patch(&common::solid(mesh, neo_hookean(), 1.0), &gradient).unwrap();
+            let curved = common::curved(mesh, 0.01);
+            conformance::check_patch(&common::solid(curved, neo_hookean(), 1.0), &gradient)
+                .unwrap();
         }
     }
 }
@@ -66,10 +68,13 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
-    fn blocks_pass_the_battery_at_random_deformations(u in prop::collection::vec(-0.06..0.06_f64, 12)) {
+    fn blocks_pass_the_battery_at_random_deformations(u in prop::collection::vec(-0.06..0.06_f64, 30)) {
         let elastic = neo_hookean().small_strain_moduli();
         for kind in PLANE_KINDS {
             let mesh = distorted_rectangle([2, 1], kind, 0.1, true);
+            // Nodes stand twice as close.
+            let size = 1.0 / kind.degree() as f64;
+            let u: Vec<f64> = u[..2 * mesh.points.len()].iter().map(|u| size * u).collect();
             for symmetry in SYMMETRIES {
                 let mesh = with_symmetry(&mesh, symmetry);
                 let metal = SaintVenantKirchhoff::new(elastic).unwrap();
@@ -314,7 +319,7 @@ fn thick_tube_converges_to_lame_with_the_square_of_the_size() {
     let elastic = ElasticConstants::from_shear_lame(10.0, 15.0).unwrap();
     let nu = elastic.poisson_ratio();
     let exact = |r: f64| 1.0 / (2.0 * 10.0) / 3.0 * ((1.0 - 2.0 * nu) * r + 4.0 / r);
-    for kind in PLANE_KINDS {
+    for kind in [CellKind::Quad4, CellKind::Tri3] {
         let errors = [4, 8, 16, 32].map(|cells| {
             let found = tube(kind, cells, elastic);
             let squares: f64 = found.iter().map(|(r, u)| (u - exact(*r)).powi(2)).sum();

@@ -66,6 +66,7 @@ fn impossible_shapes_are_refused_with_the_bound() {
         radius: 1.0,
         cells: 0,
         pole: Pole::Up,
+        kind: CellKind::Quad4,
     };
     refuse(half.generate("a"), ["half disc", "at least 1"]);
     refuse(
@@ -81,6 +82,7 @@ fn impossible_shapes_are_refused_with_the_bound() {
         radius: 0.0,
         cells: 2,
         pole: Pole::Up,
+        kind: CellKind::Quad4,
     };
     refuse(quarter.generate("a"), ["quarter disc", "positive"]);
     let ball = HalfBallMesh {
@@ -88,6 +90,7 @@ fn impossible_shapes_are_refused_with_the_bound() {
         radius: 1.0,
         cells: 0,
         pole: Pole::Up,
+        kind: CellKind::Hex8,
     };
     refuse(ball.generate("a"), ["half ball", "at least 1"]);
     refuse(
@@ -104,6 +107,7 @@ fn impossible_shapes_are_refused_with_the_bound() {
         outer: 2.0,
         cells: [8, 1],
         grading: 1.0,
+        kind: CellKind::Quad4,
     };
     refuse(
         AnnulusMesh { outer: 0.5, ..ring }.generate("a"),

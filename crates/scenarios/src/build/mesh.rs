@@ -79,11 +79,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => HalfBallMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: solid_kind(element),
         }
         .generate(name),
         spec::Mesh::Rectangle {
@@ -117,11 +119,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => HalfDiscMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: plane_kind(element),
         }
         .generate(name),
         spec::Mesh::QuarterDisc {
@@ -129,11 +133,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             radius,
             cells,
             pole: side,
+            element,
         } => QuarterDiscMesh {
             center,
             radius,
             cells: fine(cells),
             pole: pole(side),
+            kind: plane_kind(element),
         }
         .generate(name),
         spec::Mesh::Annulus {
@@ -142,12 +148,14 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             outer,
             cells,
             grading,
+            element,
         } => AnnulusMesh {
             center,
             inner,
             outer,
             cells: cells.map(fine),
             grading,
+            kind: plane_kind(element),
         }
         .generate(name),
     }
@@ -164,6 +172,8 @@ fn solid_kind(element: spec::Element) -> CellKind {
     match element {
         spec::Element::Hex8 => CellKind::Hex8,
         spec::Element::Tet4 => CellKind::Tet4,
+        spec::Element::Hex27 => CellKind::Hex27,
+        spec::Element::Tet10 => CellKind::Tet10,
     }
 }
 
@@ -171,5 +181,7 @@ fn plane_kind(element: spec::PlaneElement) -> CellKind {
     match element {
         spec::PlaneElement::Quad4 => CellKind::Quad4,
         spec::PlaneElement::Tri3 => CellKind::Tri3,
+        spec::PlaneElement::Quad9 => CellKind::Quad9,
+        spec::PlaneElement::Tri6 => CellKind::Tri6,
     }
 }

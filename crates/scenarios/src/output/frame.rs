@@ -35,15 +35,33 @@ pub enum CellShape {
     Tet4,
     /// Hexahedron, 8 nodes.
     Hex8,
+    /// Quadratic triangle, 6 nodes.
+    Tri6,
+    /// Quadratic quadrilateral, 9 nodes.
+    Quad9,
+    /// Quadratic tetrahedron, 10 nodes.
+    Tet10,
+    /// Quadratic hexahedron, 27 nodes.
+    Hex27,
 }
 
 impl CellShape {
+    /// True for cells in the plane.
+    pub fn is_plane(self) -> bool {
+        use CellShape::{Quad4, Quad9, Tri3, Tri6};
+        matches!(self, Tri3 | Quad4 | Tri6 | Quad9)
+    }
+
     /// Nodes a cell.
     pub fn node_count(self) -> usize {
         match self {
             CellShape::Tri3 => 3,
             CellShape::Quad4 | CellShape::Tet4 => 4,
             CellShape::Hex8 => 8,
+            CellShape::Tri6 => 6,
+            CellShape::Quad9 => 9,
+            CellShape::Tet10 => 10,
+            CellShape::Hex27 => 27,
         }
     }
 
@@ -54,10 +72,15 @@ impl CellShape {
             CellShape::Quad4 => 9,
             CellShape::Tet4 => 10,
             CellShape::Hex8 => 12,
+            CellShape::Tri6 => 22,
+            CellShape::Quad9 => 28,
+            CellShape::Tet10 => 24,
+            CellShape::Hex27 => 29,
         }
     }
 
-    /// Faces as local nodes, outward by the right-hand rule; a plane cell is its own face.
+    /// Faces as local nodes, outward by the right-hand rule; a plane cell is its own face. Those of quadratic cells are
+    /// cut between their nodes.
     pub fn faces(self) -> &'static [&'static [usize]] {
         match self {
             CellShape::Tri3 => &[&[0, 1, 2]],
@@ -70,6 +93,52 @@ impl CellShape {
                 &[1, 2, 6, 5],
                 &[2, 3, 7, 6],
                 &[3, 0, 4, 7],
+            ],
+            CellShape::Tri6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
+            CellShape::Quad9 => &[&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]],
+            CellShape::Tet10 => &[
+                &[0, 6, 4],
+                &[6, 2, 5],
+                &[4, 5, 1],
+                &[6, 5, 4],
+                &[0, 4, 7],
+                &[4, 1, 8],
+                &[7, 8, 3],
+                &[4, 8, 7],
+                &[1, 5, 8],
+                &[5, 2, 9],
+                &[8, 9, 3],
+                &[5, 9, 8],
+                &[0, 7, 6],
+                &[7, 3, 9],
+                &[6, 9, 2],
+                &[7, 9, 6],
+            ],
+            CellShape::Hex27 => &[
+                &[0, 16, 20, 11],
+                &[16, 4, 15, 20],
+                &[20, 15, 7, 19],
+                &[11, 20, 19, 3],
+                &[1, 9, 21, 17],
+                &[9, 2, 18, 21],
+                &[21, 18, 6, 13],
+                &[17, 21, 13, 5],
+                &[0, 8, 22, 16],
+                &[8, 1, 17, 22],
+                &[22, 17, 5, 12],
+                &[16, 22, 12, 4],
+                &[3, 19, 23, 10],
+                &[19, 7, 14, 23],
+                &[23, 14, 6, 18],
+                &[10, 23, 18, 2],
+                &[0, 11, 24, 8],
+                &[11, 3, 10, 24],
+                &[24, 10, 2, 9],
+                &[8, 24, 9, 1],
+                &[4, 12, 25, 15],
+                &[12, 5, 13, 25],
+                &[25, 13, 6, 14],
+                &[15, 25, 14, 7],
             ],
         }
     }

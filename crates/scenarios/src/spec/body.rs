@@ -82,6 +82,9 @@ pub enum Mesh {
         cells: usize,
         /// Which half.
         pole: Pole,
+        /// Element, `Hex8` or `Hex27`.
+        #[serde(default)]
+        element: Element,
     },
     /// Plane structured rectangle. Sets `x_min` .. `y_max`.
     Rectangle {
@@ -148,6 +151,9 @@ pub enum Mesh {
         cells: usize,
         /// Which half.
         pole: Pole,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
     },
     /// Quarter of a disc of quadrilaterals, x not below that of the centre: half of a ball in an axisymmetric scene.
     /// Sets `dome`, `base` (normal to y), `axis` (normal to x).
@@ -160,6 +166,9 @@ pub enum Mesh {
         cells: usize,
         /// Which quarter.
         pole: Pole,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
     },
     /// Ring of quadrilaterals. Sets `inner`, `outer`.
     Annulus {
@@ -174,6 +183,9 @@ pub enum Mesh {
         /// Size of the outermost cell over the size of the innermost \[-\]; 1 is uniform.
         #[serde(default = "one")]
         grading: f64,
+        /// Element.
+        #[serde(default)]
+        element: PlaneElement,
     },
 }
 
@@ -194,6 +206,10 @@ pub enum Element {
     Hex8,
     /// Tetrahedron with 4 nodes; six of them fill a cell of a box.
     Tet4,
+    /// Quadratic hexahedron with 27 nodes: two edges of a `Hex8` in each direction.
+    Hex27,
+    /// Quadratic tetrahedron with 10 nodes; six of them fill a cell of a box.
+    Tet10,
 }
 
 /// Element of a plane mesh.
@@ -203,26 +219,12 @@ pub enum PlaneElement {
     /// Quadrilateral with 4 nodes.
     #[default]
     Quad4,
-    /// Triangle with 3 nodes; two of them fill a cell of a rectangle.
+    /// Triangle with 3 nodes; two of them fill a quadrilateral.
     Tri3,
-}
-
-impl Element {
-    fn per_brick(self) -> f64 {
-        match self {
-            Element::Hex8 => 1.0,
-            Element::Tet4 => 6.0,
-        }
-    }
-}
-
-impl PlaneElement {
-    fn per_quadrilateral(self) -> f64 {
-        match self {
-            PlaneElement::Quad4 => 1.0,
-            PlaneElement::Tri3 => 2.0,
-        }
-    }
+    /// Quadratic quadrilateral with 9 nodes.
+    Quad9,
+    /// Quadratic triangle with 6 nodes; two of them fill a quadrilateral.
+    Tri6,
 }
 
 /// Where the dome of a half body points.
@@ -258,54 +260,82 @@ impl Mesh {
     /// Counts of the mesh with each cell count multiplied by `refine`.
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
+        let half = |n: usize| (0.5 * fine(n)).ceil();
         let lines = |axis: &Axis| axis.cells() * refine as f64;
-        let (nodes, elements) = match self {
-            Mesh::Box { cells, element, .. } => lattice(&cells.map(fine), element.per_brick()),
-            Mesh::SolidGrid {
-                x, y, z, element, ..
-            } => lattice(&[x, y, z].map(lines), element.per_brick()),
-            Mesh::Grid { x, y, element, .. } => {
-                lattice(&[x, y].map(lines), element.per_quadrilateral())
-            }
-            Mesh::Rectangle { cells, element, .. } => {
-                lattice(&cells.map(fine), element.per_quadrilateral())
-            }
+        let (corners, cells) = match self {
+            Mesh::Box { cells, .. } => lattice(&cells.map(fine)),
+            Mesh::SolidGrid { x, y, z, .. } => lattice(&[x, y, z].map(lines)),
+            Mesh::Grid { x, y, .. } => lattice(&[x, y].map(lines)),
+            Mesh::Rectangle { cells, .. } => lattice(&cells.map(fine)),
             Mesh::Annulus { cells, .. } => {
                 let [around, through] = cells.map(fine);
                 (around * (through + 1.0), around * through)
             }
-            Mesh::Disc { cells, element, .. } => {
+            Mesh::Disc { cells, .. } => {
                 let n = fine(*cells);
-                let (nodes, cells) = round(n * n, (n + 1.0).powi(2), 4.0 * n, 4.0 * n, n);
-                (nodes, cells * element.per_quadrilateral())
+                round(n * n, (n + 1.0).powi(2), 4.0 * n, 4.0 * n, n)
             }
             Mesh::HalfDisc { cells, .. } => {
-                let h = (0.5 * fine(*cells)).ceil();
+                let h = half(*cells);
                 let core = (2.0 * h + 1.0) * (h + 1.0);
                 round(2.0 * h * h, core, 4.0 * h, 4.0 * h + 1.0, 2.0 * h)
             }
             Mesh::QuarterDisc { cells, .. } => {
-                let h = (0.5 * fine(*cells)).ceil();
+                let h = half(*cells);
                 round(h * h, (h + 1.0).powi(2), 2.0 * h, 2.0 * h + 1.0, 2.0 * h)
             }
             Mesh::HalfBall { cells, .. } => {
-                let h = (0.5 * fine(*cells)).ceil();
-                let top = (2.0 * h + 1.0).powi(2);
-                let sides = 8.0 * h * h;
-                round(
-                    4.0 * h * h * h,
-                    top * (h + 1.0),
-                    12.0 * h * h,
-                    top + sides,
-                    2.0 * h,
-                )
+                let h = half(*cells);
+                let (top, sides) = ((2.0 * h + 1.0).powi(2), 8.0 * h * h);
+                let (core, shell) = (4.0 * h.powi(3), 12.0 * h * h);
+                round(core, top * (h + 1.0), shell, top + sides, 2.0 * h)
             }
         };
+        // Quadratic cells have a node for each edge, face and cell too; Euler's formula counts them.
+        let outside = |[a, b, c]: [f64; 3]| 2.0 * (a * b + b * c + c * a);
+        let around = |faces: f64| corners + 6.0 * cells + faces - 1.0;
+        let between = match self {
+            Mesh::Box { cells, .. } => around(outside(cells.map(fine))),
+            Mesh::SolidGrid { x, y, z, .. } => around(outside([x, y, z].map(lines))),
+            Mesh::HalfBall { cells, .. } => {
+                let h = half(*cells);
+                around(16.0 * h * h + 8.0 * h * layers(2.0 * h))
+            }
+            Mesh::Annulus { .. } => corners + 2.0 * cells,
+            _ => corners + 2.0 * cells - 1.0,
+        };
+        let (per_cell, quadratic) = self.element();
+        let nodes = corners + if quadratic { between } else { 0.0 };
         let dim = if self.is_plane() { 2.0 } else { 3.0 };
         MeshSize {
             nodes: nodes as usize,
-            elements: elements as usize,
+            elements: (per_cell * cells) as usize,
             dofs: (dim * nodes) as usize,
+        }
+    }
+
+    /// Elements a quadrilateral or hexahedron of the mesh, and whether they are quadratic.
+    fn element(&self) -> (f64, bool) {
+        match self {
+            Mesh::Box { element, .. }
+            | Mesh::SolidGrid { element, .. }
+            | Mesh::HalfBall { element, .. } => match element {
+                Element::Hex8 => (1.0, false),
+                Element::Tet4 => (6.0, false),
+                Element::Hex27 => (1.0, true),
+                Element::Tet10 => (6.0, true),
+            },
+            Mesh::Rectangle { element, .. }
+            | Mesh::Grid { element, .. }
+            | Mesh::Disc { element, .. }
+            | Mesh::HalfDisc { element, .. }
+            | Mesh::QuarterDisc { element, .. }
+            | Mesh::Annulus { element, .. } => match element {
+                PlaneElement::Quad4 => (1.0, false),
+                PlaneElement::Tri3 => (2.0, false),
+                PlaneElement::Quad9 => (1.0, true),
+                PlaneElement::Tri6 => (2.0, true),
+            },
         }
     }
 
@@ -340,15 +370,20 @@ impl Mesh {
     }
 }
 
-/// Nodes and elements of a grid.
-fn lattice(cells: &[f64], per_cell: f64) -> (f64, f64) {
+/// Corners and cells of a grid.
+fn lattice(cells: &[f64]) -> (f64, f64) {
     let nodes = cells.iter().map(|n| n + 1.0).product();
-    (nodes, cells.iter().product::<f64>() * per_cell)
+    (nodes, cells.iter().product())
 }
 
-/// Nodes and elements of a core and of the shells around it, from those of the core and of its outside; `quarter` is the
+/// Corners and cells of a core and of the shells around it, from those of the core and of its outside; `quarter` is the
 /// number of cells on a quarter of the rim.
 fn round(core_cells: f64, core_nodes: f64, cells: f64, nodes: f64, quarter: f64) -> (f64, f64) {
-    let shells = ((2.0 * quarter + 2.0) / 5.0).floor().max(1.0);
+    let shells = layers(quarter);
     (core_nodes + nodes * shells, core_cells + cells * shells)
+}
+
+/// Shells around a core.
+fn layers(quarter: f64) -> f64 {
+    ((2.0 * quarter + 2.0) / 5.0).floor().max(1.0)
 }

@@ -10,6 +10,7 @@ mod output;
 mod overrides;
 mod pictures;
 mod plane;
+mod quadratic;
 mod refusals;
 mod scene;
 mod sweep;

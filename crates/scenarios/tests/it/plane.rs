@@ -70,10 +70,22 @@ fn every_mesh_is_built_with_its_counts_and_sets() {
         "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, N))",
         "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up)",
         "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet4)",
+        "Rectangle(min: (0, 0), max: (1, 1), cells: (N, 2), element: Tri6)",
+        "Disc(center: (1, 0), radius: 1, cells: N, element: Quad9)",
+        "HalfDisc(center: (1, 0), radius: 1, cells: N, pole: Down, element: Tri6)",
+        "QuarterDisc(center: (0, 0), radius: 1, cells: N, pole: Up, element: Quad9)",
+        "Annulus(center: (1, 0), inner: 0.5, outer: 1, cells: (8, N), element: Tri6)",
+        "HalfBall(center: (1, 0, 0), radius: 1, cells: N, pole: Up, element: Hex27)",
+        "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Tet10)",
+        "Box(min: (0, 0, 0), max: (1, 1, 1), cells: (N, 1, 2), element: Hex27)",
         "Grid(x: (from: 0, pieces: [Cells(to: 1, cells: N), Growing(to: 9, growth: 1.3)]), \
             y: (from: 0, pieces: [Cells(to: -1, cells: 2, grading: 3)]), element: Tri3)",
         "SolidGrid(x: (from: 0, pieces: [Cells(to: 1, cells: 1)]), y: (from: 0, pieces: [Cells(to: 1, cells: 2)]), \
             z: (from: 0, pieces: [Cells(to: -1, cells: N), Growing(to: -4, growth: 2)]))",
+        "Grid(x: (from: 0, pieces: [Cells(to: 1, cells: N), Growing(to: 9, growth: 1.3)]), \
+            y: (from: 0, pieces: [Cells(to: -1, cells: 2, grading: 3)]), element: Quad9)",
+        "SolidGrid(x: (from: 0, pieces: [Cells(to: 1, cells: 1)]), y: (from: 0, pieces: [Cells(to: 1, cells: 2)]), \
+            z: (from: 0, pieces: [Cells(to: -1, cells: N), Growing(to: -4, growth: 2)]), element: Tet10)",
     ];
     for mesh in meshes {
         let solid = ["Box", "HalfBall", "SolidGrid"]

@@ -2,16 +2,16 @@
 
 use super::axis::Run;
 use super::{
-    name_side, require, require_cells, require_finite, require_indices, require_positive,
-    single_block,
+    check_kind, into_kind, name_side, require, require_cells, require_finite, require_indices,
+    require_positive, single_block,
 };
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
-/// A plane ring of quadrilaterals.
+/// A plane ring of quadrilaterals, or each cut into two triangles.
 ///
 /// Nodes are numbered counter-clockwise from the x axis, from the inner rim outwards. Sides are `inner` and `outer`, their
-/// nodes equally spaced.
+/// nodes equally spaced. Nodes that quadratic cells add between two of a radius have that radius too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnnulusMesh {
     /// Centre \[m\].
@@ -24,6 +24,8 @@ pub struct AnnulusMesh {
     pub cells: [usize; 2],
     /// Thickness of the outermost cell over that of the innermost \[-\]; 1 is uniform.
     pub grading: f64,
+    /// A kind of plane cells.
+    pub kind: CellKind,
 }
 
 impl AnnulusMesh {
@@ -31,8 +33,10 @@ impl AnnulusMesh {
     ///
     /// # Errors
     /// [`MeshError::Shape`] for radii that are not positive or not in order, fewer than 3 cells around or 1 through,
-    /// a grading that is not positive, or more nodes than 32-bit indices can address.
+    /// a grading that is not positive, or more nodes than 32-bit indices can address;
+    /// [`MeshError::CellDimension`] for solid cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
+        check_kind(block, self.kind, 2)?;
         self.check()?;
         let [around, through] = self.cells;
         let radii = Run::graded(self.inner, self.outer, through, self.grading).lines();
@@ -63,7 +67,8 @@ impl AnnulusMesh {
         let boundary = mesh.boundary_facets();
         name_side(&mut mesh, &boundary, "inner", |n| n < around);
         name_side(&mut mesh, &boundary, "outer", |n| n >= around * through);
-        Ok(mesh)
+        let [x, y] = self.center;
+        into_kind(mesh, self.kind, [x, y, 0.0], |_| true)
     }
 
     fn check(&self) -> Result<(), MeshError> {

@@ -8,7 +8,7 @@ use crate::mesh::{CellKind, Mesh};
 
 /// A box of `cells[0] x cells[1] x cells[2]` bricks, each one hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
 /// `y_max`, `z_min`, `z_max` and the node set `all`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxMesh {
@@ -20,7 +20,7 @@ pub struct BoxMesh {
     pub cells: [usize; 3],
     /// Size of the last brick over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
     pub grading: [f64; 3],
-    /// [`CellKind::Hex8`] or [`CellKind::Tet4`].
+    /// A kind of solid cells.
     pub kind: CellKind,
 }
 

@@ -1,16 +1,14 @@
 //! Discs, half discs and quarter discs.
 
 use super::o_grid::OGrid;
-use super::{
-    Pole, RectangleMesh, check_kind, name_side, require_cells, require_indices, triangles,
-};
+use super::{Pole, RectangleMesh, check_kind, name_side, require_cells, require_indices};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh};
 use crate::vector::{dot, minus};
 
 /// A disc of quadrilaterals around a square core, or each cut into two triangles.
 ///
-/// The side is `rim`, its nodes equally spaced; the node set `center` is the node nearest to the centre.
+/// The side is `rim`, its nodes equally spaced and on the circle, also those of quadratic cells; the node set `center` is the node nearest to the centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DiscMesh {
     /// Centre \[m\].
@@ -19,11 +17,11 @@ pub struct DiscMesh {
     pub radius: f64,
     /// Cells per quarter of the rim. Even numbers give a node at the centre and at the four poles.
     pub cells: usize,
-    /// [`CellKind::Quad4`] or [`CellKind::Tri3`].
+    /// A kind of plane cells.
     pub kind: CellKind,
 }
 
-/// The upper or lower half of a disc, of quadrilaterals.
+/// The upper or lower half of a disc, of quadrilaterals, or each cut into two triangles.
 ///
 /// Sides are `dome`, its nodes equally spaced, one of them at the pole, and `base`, the diameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,9 +34,12 @@ pub struct HalfDiscMesh {
     pub cells: usize,
     /// Where the dome points: +y or -y.
     pub pole: Pole,
+    /// A kind of plane cells.
+    pub kind: CellKind,
 }
 
-/// The upper or lower half of a disc, right of its centre, of quadrilaterals: half a ball if axisymmetric.
+/// The upper or lower half of a disc, right of its centre, of quadrilaterals, or each cut into two
+/// triangles: half a ball if axisymmetric.
 ///
 /// Sides are `dome`, its nodes equally spaced, `base`, the radius along x, and `axis`, the radius along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +52,8 @@ pub struct QuarterDiscMesh {
     pub cells: usize,
     /// Where the dome points: +y or -y.
     pub pole: Pole,
+    /// A kind of plane cells.
+    pub kind: CellKind,
 }
 
 impl DiscMesh {
@@ -60,7 +63,6 @@ impl DiscMesh {
     /// [`MeshError::Shape`] unless the radius is positive and finite, the centre finite, and there are cells, not more
     /// than 32-bit indices can address; [`MeshError::CellDimension`] for solid cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
-        check_kind(block, self.kind, 2)?;
         let n = self.cells;
         let part = Part {
             shape: "disc",
@@ -68,13 +70,9 @@ impl DiscMesh {
             radius: self.radius,
             pole: Pole::Up,
             rim: "rim",
+            kind: self.kind,
         };
         let mut mesh = part.generate(block, [-1.0; 2], [n; 2], n)?;
-        if self.kind == CellKind::Tri3 {
-            let cells = triangles(&mesh.points, &mesh.blocks[0].cells);
-            mesh.blocks[0].cells = cells;
-            mesh.blocks[0].kind = CellKind::Tri3;
-        }
         let center = [self.center[0], self.center[1], 0.0];
         let distance = |x: &[f64; 3]| {
             let d = minus(x, &center);
@@ -93,7 +91,7 @@ impl HalfDiscMesh {
     ///
     /// # Errors
     /// [`MeshError::Shape`] unless the radius is positive and finite, the centre finite, and there are cells, not more
-    /// than 32-bit indices can address.
+    /// than 32-bit indices can address; [`MeshError::CellDimension`] for solid cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         let n = self.cells.div_ceil(2);
         let part = Part {
@@ -102,6 +100,7 @@ impl HalfDiscMesh {
             radius: self.radius,
             pole: self.pole,
             rim: "dome",
+            kind: self.kind,
         };
         let mut mesh = part.generate(
             block,
@@ -119,7 +118,7 @@ impl QuarterDiscMesh {
     ///
     /// # Errors
     /// [`MeshError::Shape`] unless the radius is positive and finite, the centre finite, and there are cells, not more
-    /// than 32-bit indices can address.
+    /// than 32-bit indices can address; [`MeshError::CellDimension`] for solid cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         let n = self.cells.div_ceil(2);
         let part = Part {
@@ -128,6 +127,7 @@ impl QuarterDiscMesh {
             radius: self.radius,
             pole: self.pole,
             rim: "dome",
+            kind: self.kind,
         };
         let mut mesh = part.generate(block, [0.0; 2], [n; 2], n.saturating_mul(2))?;
         name_plane(&mut mesh, "base", 1, self.center[1]);
@@ -144,6 +144,7 @@ struct Part {
     radius: f64,
     pole: Pole,
     rim: &'static str,
+    kind: CellKind,
 }
 
 impl Part {
@@ -154,6 +155,7 @@ impl Part {
         cells: [usize; 2],
         quarter: usize,
     ) -> Result<Mesh, MeshError> {
+        check_kind(block, self.kind, 2)?;
         require_cells(self.shape, "cells", quarter)?;
         require_indices(self.shape, cells[0] as f64 * cells[1] as f64)?;
         let grid = OGrid {
@@ -163,6 +165,7 @@ impl Part {
             pole: self.pole,
             quarter,
             rim: self.rim,
+            kind: self.kind,
             core: RectangleMesh::uniform(low, [1.0; 2], cells).generate(block)?,
         };
         grid.generate(block)

@@ -2,7 +2,8 @@
 
 use super::axis::GridAxis;
 use super::{
-    check_kind, name_side, require, require_indices, require_positive, single_block, triangles,
+    check_kind, name_side, of_degree, require, require_indices, require_positive, single_block,
+    triangles,
 };
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh, Symmetry};
@@ -10,7 +11,7 @@ use crate::mesh::{CellKind, Mesh, Symmetry};
 /// A rectilinear mesh in the plane (two axes) or in space (three): each cell of the grid is a quadrilateral or two
 /// triangles, a hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest, then y. The mesh has node and facet sets `x_min`, `x_max`, `y_min`, `y_max`, in
+/// Nodes are numbered with x fastest, then y; those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`, `y_max`, in
 /// space also `z_min`, `z_max`, and the node set `all`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridMesh {
@@ -18,7 +19,7 @@ pub struct GridMesh {
     pub axes: Vec<GridAxis>,
     /// Into how many parts each cell of each axis is divided; 1 leaves them.
     pub refine: usize,
-    /// [`CellKind::Quad4`] or [`CellKind::Tri3`], in space [`CellKind::Hex8`] or [`CellKind::Tet4`].
+    /// A kind of plane cells if there are two axes, of solid cells if there are three.
     pub kind: CellKind,
 }
 
@@ -63,18 +64,19 @@ impl GridMesh {
         }
         let points = points(&lines);
         let count = lines.map(|lines| lines.len());
-        let cells = match self.kind {
+        let kind = self.kind.linear();
+        let cells = match kind {
             CellKind::Quad4 => quads(count),
             CellKind::Tri3 => triangles(&points, &quads(count)),
             CellKind::Tet4 => tetrahedra(&bricks(count)),
-            CellKind::Hex8 => bricks(count),
+            _ => bricks(count),
         };
         let symmetry = if dim == 2 {
             Symmetry::PlaneStrain
         } else {
             Symmetry::None
         };
-        let mut mesh = single_block(symmetry, points, block, self.kind, cells);
+        let mut mesh = single_block(symmetry, points, block, kind, cells);
         let boundary = mesh.boundary_facets();
         let stride = [1, count[0], count[0] * count[1]];
         for axis in 0..dim {
@@ -83,7 +85,7 @@ impl GridMesh {
             let last = count[axis] - 1;
             name_side(&mut mesh, &boundary, SIDES[axis][1], |n| at(n) == last);
         }
-        Ok(mesh)
+        of_degree(self.kind.degree(), mesh)
     }
 
     /// The mesh with a crowned top: the side `y_max` (`z_max` in space) bends down by `r^2 / (2 radius)` at the distance

@@ -2,9 +2,9 @@
 
 use super::disc::name_plane;
 use super::o_grid::OGrid;
-use super::{BoxMesh, Pole, require_cells, require_indices};
+use super::{BoxMesh, Pole, check_shape_kind, require_cells, require_indices};
 use crate::error::MeshError;
-use crate::mesh::Mesh;
+use crate::mesh::{CellKind, Mesh};
 
 /// The upper or lower half of a ball, of hexahedra around half a cube.
 ///
@@ -19,6 +19,8 @@ pub struct HalfBallMesh {
     pub cells: usize,
     /// Where the dome points: +z or -z.
     pub pole: Pole,
+    /// [`CellKind::Hex8`] or [`CellKind::Hex27`].
+    pub kind: CellKind,
 }
 
 impl HalfBallMesh {
@@ -26,9 +28,10 @@ impl HalfBallMesh {
     ///
     /// # Errors
     /// [`MeshError::Shape`] unless the radius is positive and finite, the centre finite, and there are cells, not more
-    /// than 32-bit indices can address.
+    /// than 32-bit indices can address; [`MeshError::Kind`] for other cells than hexahedra.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         let shape = "half ball";
+        check_shape_kind(shape, self.kind, CellKind::Hex8)?;
         require_cells(shape, "cells", self.cells)?;
         require_indices(shape, (self.cells as f64).powi(3))?;
         let n = self.cells.div_ceil(2);
@@ -41,6 +44,7 @@ impl HalfBallMesh {
             quarter: 2 * n,
             rim: "dome",
             core: core.generate(block)?,
+            kind: self.kind,
         };
         let mut mesh = grid.generate(block)?;
         name_plane(&mut mesh, "base", 2, self.center[2]);

@@ -2,7 +2,9 @@
 
 use std::f64::consts::FRAC_PI_4;
 
-use super::{Pole, name_side, require_finite, require_indices, require_positive, single_block};
+use super::{
+    Pole, into_kind, name_side, require_finite, require_indices, require_positive, single_block,
+};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Facet, Mesh};
 use crate::vector::unit;
@@ -26,6 +28,8 @@ pub(super) struct OGrid {
     pub(super) rim: &'static str,
     /// The core in its own coordinates. What lies at 1 or -1 there faces the rim.
     pub(super) core: Mesh,
+    /// Cells, of which those of the core are the linear form or what is cut into it.
+    pub(super) kind: CellKind,
 }
 
 impl OGrid {
@@ -63,7 +67,7 @@ impl OGrid {
         let mut mesh = single_block(symmetry, points, block, kind, cells);
         let boundary = mesh.boundary_facets();
         name_side(&mut mesh, &boundary, self.rim, |n| n >= first_of_rim);
-        Ok(mesh)
+        into_kind(mesh, self.kind, self.center, |n| n as usize >= first_of_rim)
     }
 
     /// From the unit circle or ball to its place \[m\].

@@ -8,7 +8,7 @@ use crate::mesh::{CellKind, Mesh};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///
-/// Nodes are numbered with x fastest. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RectangleMesh {
     /// Lowest corner \[m\].
@@ -19,7 +19,7 @@ pub struct RectangleMesh {
     pub cells: [usize; 2],
     /// Size of the last cell over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
     pub grading: [f64; 2],
-    /// [`CellKind::Quad4`] or [`CellKind::Tri3`].
+    /// A kind of plane cells.
     pub kind: CellKind,
 }
 

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use super::color::{color, draw_bar};
 use super::scale::Scale;
 use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, picture, px};
-use crate::output::{CellShape, Frame};
+use crate::output::Frame;
 
 const WIDTH: u32 = 900;
 const HEIGHT: u32 = 680;
@@ -38,10 +38,7 @@ fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
     let stress = nodal_stress(frame);
     let faces = boundary(frame);
     let points = deformed_points(frame);
-    let plane = frame
-        .cells
-        .iter()
-        .all(|cells| matches!(cells.shape, CellShape::Tri3 | CellShape::Quad4));
+    let plane = frame.cells.iter().all(|cells| cells.shape.is_plane());
     let view = View::new(plane);
     let on_surface = faces
         .iter()

@@ -1,7 +1,7 @@
 //! Meshes of bodies.
 
 use super::{Checker, MAX_NODES};
-use crate::spec::{Axis, Mesh, Piece};
+use crate::spec::{Axis, Element, Mesh, Piece};
 
 impl Checker<'_> {
     pub(super) fn mesh(&mut self, mesh: &Mesh, path: &str) {
@@ -35,8 +35,14 @@ impl Checker<'_> {
                 center,
                 radius,
                 cells,
+                element,
                 ..
-            } => self.round(center, *radius, *cells, path),
+            } => {
+                self.round(center, *radius, *cells, path);
+                let hexahedra = matches!(element, Element::Hex8 | Element::Hex27);
+                let message = "must be Hex8 or Hex27: a half ball is not cut into tetrahedra";
+                self.require(hexahedra, &format!("{path}.element"), message.to_owned());
+            }
             Mesh::Disc {
                 center,
                 radius,
@@ -61,6 +67,7 @@ impl Checker<'_> {
                 outer,
                 cells,
                 grading,
+                ..
             } => {
                 self.finite(center, &format!("{path}.center"));
                 self.positive(*inner, &format!("{path}.inner"), "m");

@@ -1,0 +1,133 @@
+//! Scenes at the edge of what the program takes, most of them found by the stress runs.
+
+use nscd::{NscdError, State, StepFailure};
+
+use crate::common::{run, scene_text, try_run};
+
+/// A soft block above a stiffer one; `first` says what drives it.
+fn pair(first: &str, master: &str, inertia: &str) -> String {
+    format!(
+        r#"(
+    title: "pair",
+    materials: {{"soft": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)}},
+    bodies: {{
+        "first": (mesh: Rectangle(min: (-0.004, 0.0), max: (0.004, 0.004), cells: (2, 2)), material: "soft"),
+        "second": (mesh: Rectangle(min: (-0.008, -0.004), max: (0.008, 0.0), cells: (5, 2)), material: "soft"),
+    }},
+    motions: {{
+        "drive": (nodes: "{first}", components: "xy", motion: Move(translation: ([(0.0, 0.0), (1.0, 1.0e-4)], [(0.0, 0.0), (1.0, -2.0e-4)], 0.0))),
+        "bottom": (nodes: "second.y_min", components: "xy"),
+    }},
+    interfaces: {{"contact": (slave: "first.y_min", master: {master}, mu: 0.3)}},
+    time: (end: 1.0, dt: 0.1, theta: 1.0, xi: 1.0, inertia: {inertia}),
+)"#
+    )
+}
+
+/// A body without unknowns presses like any other.
+#[test]
+fn a_body_whose_nodes_are_all_driven_presses_like_a_rigid_one() {
+    let facets = "Facets(\"second.y_max\")";
+    let force = |first: &str, inertia: &str| {
+        let run = run(&scene_text(&pair(first, facets, inertia), &[]));
+        run.assert_audited(run.totals.largest_energy, 1e-10);
+        run.contact_force(1).last().copied().unwrap()
+    };
+    let (all, dynamic) = (
+        force("first.all", "QuasiStatic"),
+        force("first.all", "Dynamic"),
+    );
+    // Slow against the waves: inertia changes little. Two soft blocks give way more than one.
+    assert!((dynamic / all - 1.0).abs() < 0.01, "{dynamic} {all}");
+    let face = force("first.y_max", "QuasiStatic");
+    assert!(face > 0.3 * all && face < 0.9 * all, "{face} {all}");
+}
+
+#[test]
+fn two_driven_sides_that_overlap_are_told_apart_from_a_hard_problem() {
+    let plane = "Plane(point: (0.0, 0.0, 0.0), normal: (0.0, 1.0, 0.0))";
+    let run = try_run(&scene_text(&pair("first.all", plane, "QuasiStatic"), &[]));
+    let Err(NscdError::Stopped { failure, .. }) = run.end else {
+        panic!("{:?}", run.end)
+    };
+    assert!(
+        matches!(failure, StepFailure::Immovable { .. }),
+        "{failure}"
+    );
+    let text = failure.to_string();
+    assert!(
+        text.contains("node") && text.contains("free some of them"),
+        "{text}"
+    );
+    assert_eq!(run.counters.contact_iterations, 0);
+}
+
+/// At the velocity level a node may sink in although no contact was predicted for it; the report says how deep.
+#[test]
+fn the_velocity_level_reports_penetrations_that_it_did_not_foresee() {
+    let radius = 0.02;
+    let text = format!(
+        r#"(
+    title: "unforeseen",
+    symmetry: Some(Axisymmetric),
+    materials: {{"soft": (law: BlatzKo(G: 4.4e5), density: 260.0)}},
+    bodies: {{"block": (mesh: Rectangle(min: (0.0, 5.7e-5), max: (0.0062, 0.01), cells: (2, 5), element: Tri3), material: "soft")}},
+    motions: {{
+        "axis": (nodes: "block.x_min", components: "x"),
+        "drive": (nodes: "block.y_max", components: "xy", motion: Move(translation: (0.0, [(0.0, 0.0), (5.52e-4, -5.0e-4)], 0.0))),
+    }},
+    interfaces: {{"contact": (slave: "block.y_min", master: Sphere(center: (0.0, -{radius}, 0.0), radius: {radius}), mu: 0.2)}},
+    time: (end: 6.0e-4, dt: 6.0e-5, contact: Velocity),
+)"#
+    );
+    let run = run(&scene_text(&text, &[]));
+    let model = &run.built.model;
+    let mut unforeseen = 0;
+    for step in &run.steps {
+        let x = model.positions(&step.state.u);
+        let depth = |n: &u32| {
+            let at = &x[2 * *n as usize..];
+            radius - at[0].hypot(at[1] + radius)
+        };
+        let slaves = model.interfaces[0].slave.iter();
+        let deepest = slaves.map(depth).fold(0.0, f64::max);
+        assert!(
+            (step.report.penetration - deepest).abs() < 1e-15,
+            "{} {deepest}",
+            step.report.penetration
+        );
+        let known = |s: &State| s.contacts.iter().map(|c| -c.gap).fold(0.0, f64::max);
+        unforeseen += usize::from(deepest > 1e-9 + known(&step.state));
+    }
+    assert!(unforeseen > 0, "the scene shows nothing any more");
+}
+
+/// In the plane a bond on a round obstacle stays in the plane, however far the body rolls round it.
+#[test]
+fn bonds_on_a_round_obstacle_stay_in_the_plane() {
+    let text = r#"(
+    title: "round",
+    materials: {"soft": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)},
+    bodies: {"block": (mesh: Rectangle(min: (-0.004, 0.0), max: (0.004, 0.006), cells: (6, 4)), material: "soft")},
+    motions: {"drive": (nodes: "block.y_max", components: "xy", motion: Move(
+        translation: ([(0.0, 0.0), (0.4, 0.0), (1.0, 1.5e-3)], [(0.0, 0.0), (0.4, -6.0e-4)], 0.0),
+        rotation: Some((point: (0.0, 0.006, 0.0), axis: (0.0, 0.0, 1.0), angle: [(0.0, 0.0), (0.4, 0.0), (1.0, -0.3)])),
+    ))},
+    interfaces: {"contact": (slave: "block.y_min", master: Sphere(center: (0.0, -0.004, 0.0), radius: 0.004), mu: 0.3,
+        adhesion: Some((C_n: 2.0e8, C_t: 2.0e8, w: 2.0, b: 1.0, beta: 1.0)))},
+    time: (end: 1.0, dt: 0.05, inertia: QuasiStatic),
+)"#;
+    let run = try_run(&scene_text(text, &[]));
+    assert!(run.end.is_ok(), "{:?}", run.end);
+    let mut stretched = 0;
+    for contact in run.steps.iter().flat_map(|s| &s.state.contacts) {
+        let Some(bond) = contact.bond else { continue };
+        assert!(
+            bond.separation[1].abs() < 1e-18 && bond.force[1].abs() < 1e-12,
+            "{contact:?}"
+        );
+        stretched +=
+            usize::from(bond.separation[0].abs() > 1e-6 && contact.frame[2][0].abs() > 0.1);
+    }
+    assert!(stretched > 10, "no bond is stretched on a slope");
+}

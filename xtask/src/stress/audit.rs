@@ -1,0 +1,426 @@
+//! Every accepted step recomputed from its state: what the program reports about itself is not taken for granted.
+
+use contact_bipotential::Master;
+use fe_core::ElementWorkspace;
+use nscd::{
+    ContactLevel, ContactState, Inertia, Model, Observer, State, StepReport, Stepper, Totals,
+};
+
+use super::geometry::{deepest, deepest_on_the_way, positions};
+
+/// Newton corrections after which a run is cut.
+const MOST_ITERATIONS: u64 = 6_000;
+
+/// Largest open share of the energy audit \[-\].
+const ENERGY: f64 = 1e-6;
+/// Largest force left over at a free unknown, over the largest force in play \[-\].
+const RESIDUAL: f64 = 1e-8;
+/// Largest error of the contact law that is not round-off \[-\].
+const LAW: f64 = 1e-7;
+/// Deepest penetration over the smallest edge of the mesh \[-\]; on curved facets in space, which are compared with flat ones.
+const DEPTH: f64 = 1e-5;
+const DEPTH_CURVED: f64 = 0.1;
+
+/// The worst of a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Worst {
+    pub(super) energy: f64,
+    pub(super) residual: f64,
+    pub(super) law: f64,
+    /// Over the smallest edge.
+    pub(super) depth: f64,
+    /// Share of the energy that the time integration made up.
+    pub(super) integration: f64,
+    /// As the program reports it.
+    pub(super) contact_error: f64,
+}
+
+/// Watches a run and ends it at the first step that is not what it claims to be.
+pub(super) struct Auditor<'a> {
+    model: &'a Model,
+    work: ElementWorkspace,
+    damping: ElementWorkspace,
+    before: State,
+    start_energy: f64,
+    works: f64,
+    edge: f64,
+    extent: f64,
+    /// Mass of the heaviest unknown and stiffness of the stiffest at the start.
+    mass: f64,
+    stiffness: f64,
+    pub(super) worst: Worst,
+    pub(super) fault: Option<String>,
+    pub(super) over_budget: bool,
+}
+
+impl<'a> Auditor<'a> {
+    pub(super) fn new(model: &'a Model, start: &State) -> Result<Self, String> {
+        let text = |e: fe_core::FeError| e.to_string();
+        let n = model.dof_count();
+        let mut damping = model.solid.workspace();
+        model
+            .solid
+            .tangent(&vec![0.0; n], &mut damping, &mut vec![0.0; n])
+            .map_err(text)?;
+        // Signs without a pattern, or a rigid motion could hide in them.
+        let sign = |i: usize| {
+            if (i * i * i + i / 2) % 7 < 3 {
+                1.0
+            } else {
+                -1.0
+            }
+        };
+        let rough: Vec<f64> = (0..n).map(sign).collect();
+        let mut force = vec![0.0; n];
+        model.solid.tangent_times(&damping, &rough, &mut force);
+        let x = positions(model, &start.u);
+        Ok(Auditor {
+            model,
+            work: model.solid.workspace(),
+            damping,
+            before: start.clone(),
+            start_energy: start.kinetic_energy + start.strain_energy + start.adhesive_energy,
+            works: 0.0,
+            edge: smallest_edge(model),
+            extent: x.iter().flatten().fold(0.0, |m: f64, c| m.max(c.abs())),
+            mass: largest(&model.mass.row_sums()),
+            stiffness: largest(&force),
+            worst: Worst::default(),
+            fault: None,
+            over_budget: false,
+        })
+    }
+
+    fn audit(&mut self, state: &State, report: &StepReport, totals: &Totals) -> Result<(), String> {
+        finite(state, report)?;
+        self.balance(state, report)?;
+        self.energies(state, report, totals)?;
+        self.contacts(state, report)?;
+        self.geometry(state, report)?;
+        self.worst.contact_error = self.worst.contact_error.max(report.contact_error);
+        Ok(())
+    }
+
+    /// Force that the round-off of positions of the size `extent` \[m\] makes, with room for the sums \[N\].
+    fn round_off(&self, extent: f64, state: &State, dt: f64) -> f64 {
+        let rate = match self.model.scheme.inertia {
+            Inertia::Dynamic => self.mass / (dt * dt),
+            Inertia::QuasiStatic => 0.0,
+        };
+        let travel = largest(&state.u) + dt * largest(&state.v) + extent;
+        1e4 * f64::EPSILON * (rate + self.stiffness) * travel
+    }
+
+    /// `A v` by the damping of the scene.
+    fn damping_force(&self, v: &[f64]) -> Vec<f64> {
+        let (mut inertial, mut elastic) = (vec![0.0; v.len()], vec![0.0; v.len()]);
+        self.model.mass.times(v, &mut inertial);
+        self.model
+            .solid
+            .tangent_times(&self.damping, v, &mut elastic);
+        let (alpha, beta) = (self.model.damping.mass, self.model.damping.stiffness);
+        inertial
+            .iter()
+            .zip(&elastic)
+            .map(|(m, k)| alpha * m + beta * k)
+            .collect()
+    }
+
+    /// Forces against inertia at every free unknown, and in sum against what interfaces and supports report.
+    fn balance(&mut self, state: &State, report: &StepReport) -> Result<(), String> {
+        let (model, before) = (self.model, &self.before);
+        let (n, dim) = (model.dof_count(), model.solid.dim());
+        let dynamic = model.scheme.inertia == Inertia::Dynamic;
+        let xi = if dynamic { model.scheme.xi } else { 1.0 };
+        let mut internal = vec![0.0; n];
+        let energy = model
+            .solid
+            .internal_force(&state.u, &mut self.work, &mut internal)
+            .map_err(|e| format!("an accepted state is inverted: {e}"))?;
+        let off = (energy - state.strain_energy).abs();
+        if off > 1e-12 * energy.abs().max(state.strain_energy.abs()) {
+            return Err(format!(
+                "strain energy {energy:e} J, reported {:e} J",
+                state.strain_energy
+            ));
+        }
+        let (d0, d1) = (self.damping_force(&before.v), self.damping_force(&state.v));
+        let mut inertia = vec![0.0; n];
+        if dynamic {
+            let rate: Vec<f64> = (0..n)
+                .map(|i| (state.v[i] - before.v[i]) / report.dt)
+                .collect();
+            model.mass.times(&rate, &mut inertia);
+        }
+        let at = |start: &[f64], end: &[f64], i: usize| (1.0 - xi) * start[i] + xi * end[i];
+        let applied: Vec<f64> = (0..n)
+            .map(|i| {
+                at(&before.external_force, &state.external_force, i) - at(&d0, &d1, i) - inertia[i]
+            })
+            .collect();
+        let fixed = prescribed(model);
+        let fields = [
+            &internal,
+            &state.external_force,
+            &state.contact_force,
+            &d1,
+            &inertia,
+        ];
+        let scale = fields.into_iter().map(|f| largest(f)).fold(0.0, f64::max);
+        let round_off = self.round_off(self.edge, state, report.dt);
+        let mut worst = 0.0_f64;
+        for i in (0..n).filter(|i| !fixed[*i]) {
+            let left =
+                applied[i] - at(&before.internal_force, &internal, i) + state.contact_force[i];
+            worst = worst.max(left.abs());
+        }
+        if worst > RESIDUAL * scale + round_off {
+            return Err(format!(
+                "{worst:e} N are left over at a node, the largest force is {scale:e} N"
+            ));
+        }
+        self.worst.residual = self
+            .worst
+            .residual
+            .max((worst - round_off).max(0.0) / scale.max(f64::MIN_POSITIVE));
+        self.resultants(report, &applied, dim, scale, round_off)
+    }
+
+    /// What obstacles and supports give is what accelerates the bodies.
+    fn resultants(
+        &self,
+        report: &StepReport,
+        applied: &[f64],
+        dim: usize,
+        scale: f64,
+        round_off: f64,
+    ) -> Result<(), String> {
+        let axisymmetric = self.model.solid.mesh().symmetry == fe_core::Symmetry::Axisymmetric;
+        for c in usize::from(axisymmetric)..dim {
+            let mut sum: f64 = applied.iter().skip(c).step_by(dim).sum();
+            let rigid = self.model.interfaces.iter().zip(&report.interfaces);
+            let rigid = rigid.filter(|(i, _)| matches!(i.master, Master::Obstacle(_)));
+            sum += rigid.map(|(_, r)| r.force[c]).sum::<f64>();
+            sum += report.supports.iter().map(|r| r.force[c]).sum::<f64>();
+            let many = applied.len() as f64;
+            if sum.abs() > many * (RESIDUAL * scale + round_off) {
+                return Err(format!(
+                    "reactions and inertia differ by {sum:e} N along axis {c}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn energies(
+        &mut self,
+        state: &State,
+        report: &StepReport,
+        totals: &Totals,
+    ) -> Result<(), String> {
+        let kinetic = self.model.kinetic_energy(&state.v);
+        if (kinetic - state.kinetic_energy).abs() > 1e-12 * kinetic.abs() {
+            return Err(format!(
+                "kinetic energy {kinetic:e} J, reported {:e} J",
+                state.kinetic_energy
+            ));
+        }
+        let step = &report.energy;
+        self.works +=
+            step.load_work.abs() + step.friction.abs() + step.impact.abs() + step.bulk_error.abs();
+        let sums = &totals.energy;
+        let scale = totals
+            .largest_energy
+            .max(self.works)
+            .max(self.start_energy.abs());
+        let now = state.kinetic_energy + state.strain_energy + state.adhesive_energy;
+        let told = sums.kinetic + sums.strain + sums.adhesive;
+        let open = sums
+            .imbalance()
+            .abs()
+            .max((now - self.start_energy - told).abs());
+        // What the forces that count as zero can do along the way.
+        let round_off = self.round_off(self.edge, state, report.dt) * largest(&state.u);
+        if open > ENERGY * scale + round_off {
+            return Err(format!("the energy audit leaves {open:e} J of {scale:e} J"));
+        }
+        let share = |part: f64| if scale > 0.0 { part / scale } else { 0.0 };
+        self.worst.energy = self.worst.energy.max(share((open - round_off).max(0.0)));
+        self.worst.integration = self
+            .worst
+            .integration
+            .max(share(sums.integration_error().abs()));
+        Ok(())
+    }
+
+    /// Cone, complementarity, dissipation, intensities.
+    fn contacts(&mut self, state: &State, report: &StepReport) -> Result<(), String> {
+        let force = state
+            .contacts
+            .iter()
+            .flat_map(|c| c.force)
+            .fold(0.0, |m: f64, r| m.max(r.abs()));
+        // Below the round-off of the forces that move the nodes no contact force is known.
+        let known = force.max(self.round_off(self.extent, state, report.dt) / LAW);
+        for c in &state.contacts {
+            let interface = &self.model.interfaces[c.interface];
+            let pull = c.bond.map_or([0.0; 3], |b| b.force);
+            let dry: [f64; 3] = std::array::from_fn(|i| c.force[i] - pull[i]);
+            let mut mu = interface.mu;
+            if let (Some(bond), Some(law)) = (c.bond, &interface.adhesion) {
+                if !(0.0..=1.0).contains(&bond.intensity) {
+                    return Err(format!("beta = {} at node {}", bond.intensity, c.node));
+                }
+                mu += bond.intensity * (law.bonded_friction.unwrap_or(mu) - mu);
+            }
+            let friction = dry[0].hypot(dry[1]);
+            let mut error = (-dry[2]).max(friction - mu * dry[2]).max(0.0) / known;
+            error = error.max(self.complementarity(c, dry, mu) / known);
+            if error > LAW {
+                return Err(format!(
+                    "node {} breaks the contact law by {error:e}: force {dry:?} N, gap {:e} m, slip {:?} m",
+                    c.node, c.gap, c.slip
+                ));
+            }
+            self.worst.law = self.worst.law.max(error);
+        }
+        Ok(())
+    }
+
+    /// Bi-potential gap of a contact over the extent of the bodies \[N\].
+    fn complementarity(&self, c: &ContactState, dry: [f64; 3], mu: f64) -> f64 {
+        if self.model.scheme.contact == ContactLevel::Velocity {
+            return 0.0;
+        }
+        let slip = c.slip[0].hypot(c.slip[1]);
+        let normal = dry[2] * c.gap.max(0.0);
+        let tangential = mu * dry[2].max(0.0) * slip + dry[0] * c.slip[0] + dry[1] * c.slip[1];
+        (normal.abs() + tangential.abs()) / self.extent
+    }
+
+    /// Penetrations recomputed from the positions, at the end and on the way.
+    fn geometry(&mut self, state: &State, report: &StepReport) -> Result<(), String> {
+        let model = self.model;
+        let x = positions(model, &state.u);
+        let (depth, node) = deepest(model, &x, state.time);
+        let curved = model.solid.dim() == 3
+            && model
+                .interfaces
+                .iter()
+                .any(|i| matches!(i.master, Master::Surface(_)));
+        let allowed = self.edge * if curved { DEPTH_CURVED } else { DEPTH };
+        let told = match model.scheme.contact {
+            ContactLevel::Position => 0.0,
+            ContactLevel::Velocity => report.penetration,
+        };
+        if depth > told * (1.0 + 1e-6) + allowed {
+            return Err(format!(
+                "node {node} lies {depth:e} m in its master, reported are {:e} m; the smallest edge is {:e} m",
+                report.penetration, self.edge
+            ));
+        }
+        self.worst.depth = self.worst.depth.max(depth / self.edge);
+        let start = positions(model, &self.before.u);
+        let (first, _) = deepest(model, &start, self.before.time);
+        let way = deepest_on_the_way(model, [&start, &x], [self.before.time, state.time]);
+        let travel = report.dt * largest(&state.v).max(largest(&self.before.v));
+        // A straight way along a round obstacle cuts through it a little.
+        if way > first.max(depth) + 0.5 * travel.max(self.edge) + allowed {
+            return Err(format!(
+                "a node passed {way:e} m deep through an obstacle in one step"
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl Observer for Auditor<'_> {
+    fn accepted(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        report: &StepReport,
+        totals: &Totals,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        if let Err(fault) = self.audit(state, report, totals) {
+            let fault = format!(
+                "t = {:e} s, step {}: {fault}",
+                state.time, stepper.counters.steps
+            );
+            self.fault = Some(fault.clone());
+            return Err(fault.into());
+        }
+        self.before = state.clone();
+        if stepper.counters.newton_iterations > MOST_ITERATIONS {
+            self.over_budget = true;
+            return Err("over budget".into());
+        }
+        Ok(())
+    }
+}
+
+fn finite(state: &State, report: &StepReport) -> Result<(), String> {
+    let fields = [
+        ("displacement", &state.u),
+        ("velocity", &state.v),
+        ("internal force", &state.internal_force),
+        ("support force", &state.support_force),
+        ("contact force", &state.contact_force),
+    ];
+    for (name, values) in fields {
+        if values.iter().any(|v| !v.is_finite()) {
+            return Err(format!("a {name} is not finite"));
+        }
+    }
+    let contacts = state.contacts.iter();
+    let local = contacts.flat_map(|c| c.force.into_iter().chain(c.slip).chain([c.gap]));
+    let numbers = [
+        state.kinetic_energy,
+        state.strain_energy,
+        state.adhesive_energy,
+        report.residual,
+        report.contact_error,
+        report.penetration,
+        report.energy.imbalance(),
+    ];
+    if local.chain(numbers).any(|v| !v.is_finite()) {
+        return Err("a reported number is not finite".into());
+    }
+    Ok(())
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+fn prescribed(model: &Model) -> Vec<bool> {
+    let dim = model.solid.dim();
+    let mut fixed = vec![false; model.dof_count()];
+    for support in &model.supports {
+        for &node in &support.nodes {
+            for c in (0..dim).filter(|c| support.components[*c]) {
+                fixed[dim * node as usize + c] = true;
+            }
+        }
+    }
+    fixed
+}
+
+fn smallest_edge(model: &Model) -> f64 {
+    let points = &model.solid.mesh().points;
+    let mut smallest = f64::INFINITY;
+    for block in model.solid.blocks() {
+        for cell in block.connectivity().chunks_exact(block.nodes_per_element()) {
+            for (i, a) in cell.iter().enumerate() {
+                for b in &cell[..i] {
+                    let (a, b) = (points[*a as usize], points[*b as usize]);
+                    let d = (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt();
+                    if d > 0.0 {
+                        smallest = smallest.min(d);
+                    }
+                }
+            }
+        }
+    }
+    smallest
+}

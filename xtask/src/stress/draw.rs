@@ -1,0 +1,500 @@
+//! What a run of the stress map is: drawn from a seed and an index, in natural units (a length, a modulus and a density of
+//! one), with at least one thing extreme.
+
+use oorandom::Rand64;
+
+/// What is set up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Case {
+    /// A free body flies against a rigid obstacle
+    Fall,
+    /// A driven body is pressed on a rigid obstacle and dragged
+    Press,
+    /// A moving rigid obstacle presses into a held body
+    Indent,
+    /// A driven body is pressed on another one and dragged
+    Pair,
+    /// Two free bodies collide
+    Collide,
+    /// A free body between two rigid plates, of which one moves
+    Squeeze,
+}
+
+impl Case {
+    pub(super) const ALL: [Case; 6] = [
+        Case::Fall,
+        Case::Press,
+        Case::Indent,
+        Case::Pair,
+        Case::Collide,
+        Case::Squeeze,
+    ];
+
+    pub(super) fn has_second_body(self) -> bool {
+        matches!(self, Case::Pair | Case::Collide)
+    }
+
+    /// Whether a face of the body is driven or held.
+    fn is_held(self) -> bool {
+        matches!(self, Case::Press | Case::Indent | Case::Pair)
+    }
+}
+
+/// One direction in which a run leaves what is usual.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extreme {
+    Friction,
+    Stiffness,
+    Density,
+    LongSteps,
+    ShortSteps,
+    Speed,
+    Slivers,
+    Incompressible,
+    StrongBonds,
+    NoViscosity,
+    Compression,
+    Overlap,
+    NoSupports,
+    OneElement,
+    Flicker,
+    Units,
+    AllDriven,
+    DeadLoads,
+    Sharp,
+    Touching,
+    Restitution,
+    Turning,
+}
+
+impl Extreme {
+    /// Every direction with what the map says of it.
+    pub(super) const ALL: [(Extreme, &str); 22] = [
+        (Extreme::Friction, "friction: mu 1, 1.9, 3 or 10"),
+        (Extreme::Stiffness, "stiffness ratio 1e-6 to 1e6"),
+        (Extreme::Density, "density ratio 1e-6 to 1e6"),
+        (Extreme::LongSteps, "steps 10 to 100 times as long"),
+        (Extreme::ShortSteps, "steps 1e-2 to 1e-8 times as long"),
+        (Extreme::Speed, "speed 10 to 100 times as high"),
+        (Extreme::Slivers, "aspect ratio or grading 30 to 1000"),
+        (Extreme::Incompressible, "nu .49 to .4999"),
+        (Extreme::StrongBonds, "bonds 1e2 to 1e4 times as stiff"),
+        (Extreme::NoViscosity, "bonds without viscosity, b = 0"),
+        (Extreme::Compression, "compression by 50 to 90 %"),
+        (
+            Extreme::Overlap,
+            "overlap at the start, up to 60 % of the body",
+        ),
+        (Extreme::NoSupports, "no supports"),
+        (Extreme::OneElement, "one element a body"),
+        (Extreme::Flicker, "contacts that come and go every step"),
+        (
+            Extreme::Units,
+            "lengths, masses, times in units of 1e-6 to 1e6",
+        ),
+        (Extreme::AllDriven, "all nodes of a body driven"),
+        (Extreme::DeadLoads, "dead loads of .1 to 10 moduli"),
+        (Extreme::Sharp, "sharp edges, tips and small balls"),
+        (Extreme::Touching, "no gap, coincident nodes"),
+        (Extreme::Restitution, "velocity level, restitution 0 to 1"),
+        (Extreme::Turning, "turns up to one revolution"),
+    ];
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Plane,
+    Axisymmetric,
+    Space,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Law {
+    SaintVenantKirchhoff,
+    ThreeE,
+    BlatzKo,
+    NeoHookean,
+}
+
+/// A rigid shape whose highest point is the origin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Shape {
+    /// Its slope against the horizontal.
+    Plane(f64),
+    /// Radius.
+    Sphere(f64),
+    /// Radius.
+    Cylinder(f64),
+    /// Semi-apex angle [degrees].
+    Cone(f64),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bond {
+    pub(super) stiffness: f64,
+    pub(super) energy: f64,
+    pub(super) viscosity: f64,
+    pub(super) initial: f64,
+    pub(super) irreversible: bool,
+    pub(super) ageing: bool,
+    pub(super) consistent: bool,
+    pub(super) bonded_friction: Option<f64>,
+    pub(super) healing_gap: f64,
+}
+
+/// What drives a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Hold {
+    /// The face opposite the contact.
+    Face,
+    /// All nodes.
+    All,
+    /// Nothing.
+    Free,
+}
+
+/// A run in natural units.
+#[derive(Clone, Debug)]
+pub(super) struct Draw {
+    pub(super) case: Case,
+    pub(super) extremes: Vec<Extreme>,
+    pub(super) kind: Kind,
+    pub(super) round: bool,
+    pub(super) simplex: bool,
+    /// Across and along the vertical.
+    pub(super) cells: [usize; 2],
+    pub(super) width: f64,
+    pub(super) height: f64,
+    pub(super) grading: f64,
+    pub(super) law: Law,
+    pub(super) nu: f64,
+    pub(super) modulus: f64,
+    pub(super) density: f64,
+    pub(super) mu: f64,
+    pub(super) bond: Option<Bond>,
+    pub(super) restitution: f64,
+    pub(super) theta: f64,
+    pub(super) xi: f64,
+    pub(super) velocity_level: bool,
+    pub(super) quasi_static: bool,
+    pub(super) lumped: bool,
+    pub(super) damping: [f64; 2],
+    pub(super) dt: f64,
+    pub(super) steps: usize,
+    /// Initial velocity of a free body, across and down.
+    pub(super) speed: [f64; 2],
+    /// Negative where bodies overlap at the start.
+    pub(super) gap: f64,
+    pub(super) depth: f64,
+    pub(super) slide: f64,
+    /// Of the driven face [rad].
+    pub(super) turn: f64,
+    pub(super) flicker: bool,
+    /// Pulls back after the press.
+    pub(super) pull: bool,
+    pub(super) shape: Shape,
+    pub(super) hold: Hold,
+    /// Dead traction on the far face (down), or body force.
+    pub(super) traction: f64,
+    pub(super) gravity: f64,
+    /// The second body has the mesh and width of the first, node on node.
+    pub(super) matching: bool,
+    /// The second body is narrower than the first.
+    pub(super) overhang: bool,
+    /// Length, mass and time in the units of the scene.
+    pub(super) units: [f64; 3],
+}
+
+/// Seeded numbers with the few distributions that are needed.
+struct Dice(Rand64);
+
+impl Dice {
+    fn chance(&mut self, p: f64) -> bool {
+        self.0.rand_float() < p
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.0.rand_float()
+    }
+
+    /// Evenly in the logarithm.
+    fn decades(&mut self, low: f64, high: f64) -> f64 {
+        10f64.powf(self.within(low, high))
+    }
+
+    fn one_of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[self.0.rand_range(0..all.len() as u64) as usize]
+    }
+
+    fn count(&mut self, low: u64, high: u64) -> usize {
+        self.0.rand_range(low..high + 1) as usize
+    }
+}
+
+/// The run `index` of a seed; the directions take turns, so that each has its share.
+pub(super) fn draw(seed: u64, index: usize) -> Draw {
+    let mut dice = Dice(Rand64::new((u128::from(seed) << 64) | index as u128));
+    let mut extremes = vec![Extreme::ALL[index % Extreme::ALL.len()].0];
+    while dice.chance(0.3) {
+        let (other, _) = dice.one_of(&Extreme::ALL);
+        if !extremes.contains(&other) {
+            extremes.push(other);
+        }
+    }
+    let mut draw = usual(&mut dice, &extremes);
+    for extreme in extremes.clone() {
+        push(&mut draw, extreme, &mut dice);
+    }
+    reconcile(&mut draw);
+    draw
+}
+
+fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
+    let case = dice.one_of(&Case::ALL);
+    let kind = dice.one_of(&[Kind::Plane, Kind::Plane, Kind::Axisymmetric, Kind::Space]);
+    let most = if kind == Kind::Space { 3 } else { 5 };
+    let free = !case.is_held();
+    let scheme = dice.count(0, 4);
+    let (theta, xi) = match scheme {
+        0 | 1 => (0.5, 0.5),
+        2 => (1.0, 1.0),
+        _ => (dice.within(0.5, 1.0), dice.within(0.5, 1.0)),
+    };
+    Draw {
+        case,
+        extremes: extremes.to_vec(),
+        kind,
+        round: dice.chance(0.4),
+        simplex: dice.chance(0.3),
+        cells: [dice.count(1, most), dice.count(1, most)],
+        width: dice.within(0.5, 1.5),
+        height: dice.within(0.5, 1.0),
+        grading: 1.0,
+        law: dice.one_of(&[
+            Law::SaintVenantKirchhoff,
+            Law::ThreeE,
+            Law::BlatzKo,
+            Law::NeoHookean,
+        ]),
+        nu: dice.within(0.0, 0.4),
+        modulus: 1.0,
+        density: 1.0,
+        mu: dice.one_of(&[0.0, 0.2, 0.6]),
+        bond: dice.chance(0.25).then(|| bond(dice)),
+        restitution: 0.0,
+        theta,
+        xi,
+        velocity_level: scheme == 1,
+        quasi_static: !free && dice.chance(0.4),
+        lumped: dice.chance(0.3),
+        damping: if dice.chance(0.2) {
+            [dice.within(0.0, 0.2), dice.within(0.0, 0.2)]
+        } else {
+            [0.0; 2]
+        },
+        dt: 0.2,
+        steps: dice.count(12, 25),
+        speed: [dice.within(-0.05, 0.05), dice.within(0.02, 0.1)],
+        gap: dice.within(0.0, 0.03),
+        depth: dice.within(0.02, 0.15),
+        slide: dice.within(0.0, 0.2),
+        turn: 0.0,
+        flicker: false,
+        pull: dice.chance(0.3),
+        shape: match dice.count(0, 3) {
+            0 => Shape::Plane(dice.within(0.0, 0.3)),
+            1 => Shape::Sphere(dice.within(0.5, 3.0)),
+            2 => Shape::Cylinder(dice.within(0.5, 3.0)),
+            _ => Shape::Plane(0.0),
+        },
+        hold: if free { Hold::Free } else { Hold::Face },
+        traction: 0.0,
+        gravity: 0.0,
+        matching: dice.chance(0.3),
+        overhang: false,
+        // Centimetres, grams and wave times of a soft rubber.
+        units: [1e-2, 1e-3, 3e-4],
+    }
+}
+
+fn bond(dice: &mut Dice) -> Bond {
+    let viscosity = dice.decades(-6.0, -3.0);
+    Bond {
+        stiffness: dice.within(0.3, 3.0),
+        energy: dice.decades(-4.5, -3.0),
+        viscosity,
+        initial: dice.one_of(&[0.0, 1.0]),
+        irreversible: dice.chance(0.25),
+        ageing: dice.chance(0.25),
+        consistent: dice.chance(0.25),
+        bonded_friction: dice.chance(0.25).then(|| dice.within(0.0, 1.0)),
+        healing_gap: if dice.chance(0.2) { 1e-3 } else { 0.0 },
+    }
+}
+
+/// Leaves what is usual in one direction.
+fn push(draw: &mut Draw, extreme: Extreme, dice: &mut Dice) {
+    match extreme {
+        Extreme::Friction => draw.mu = dice.one_of(&[1.0, 1.9, 3.0, 10.0]),
+        Extreme::Stiffness => {
+            draw.modulus = dice.decades(-6.0, 6.0);
+            if dice.chance(0.7) {
+                draw.case = dice.one_of(&[Case::Pair, Case::Collide]);
+            }
+        }
+        Extreme::Density => draw.density = dice.decades(-6.0, 6.0),
+        Extreme::LongSteps => {
+            draw.dt *= dice.decades(1.0, 2.0);
+            draw.steps = dice.count(2, 8);
+        }
+        Extreme::ShortSteps => {
+            let factor = dice.decades(-8.0, -2.0);
+            draw.dt *= factor;
+            [draw.depth, draw.slide, draw.gap] =
+                [draw.depth, draw.slide, draw.gap].map(|x| x * factor);
+        }
+        Extreme::Speed => {
+            let factor = dice.decades(1.0, 2.0);
+            draw.speed = draw.speed.map(|v| v * factor);
+            if draw.case.is_held() {
+                draw.dt /= factor;
+            }
+        }
+        Extreme::Slivers => slivers(draw, dice),
+        Extreme::Incompressible => {
+            draw.nu = 0.5 - dice.decades(-4.0, -2.0);
+            draw.law = dice.one_of(&[Law::SaintVenantKirchhoff, Law::ThreeE, Law::NeoHookean]);
+        }
+        Extreme::StrongBonds => {
+            let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
+            bond.stiffness *= dice.decades(2.0, 4.0);
+            draw.bond = Some(bond);
+            draw.pull = true;
+        }
+        Extreme::NoViscosity => {
+            let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
+            bond.viscosity = 0.0;
+            bond.consistent = false;
+            if dice.chance(0.4) {
+                bond.bonded_friction = Some(dice.within(0.0, 2.0));
+            }
+            draw.bond = Some(bond);
+            draw.pull = true;
+        }
+        Extreme::Compression => {
+            draw.depth = draw.height * dice.within(0.5, 0.9);
+            draw.speed[1] = dice.within(0.3, 1.0);
+            draw.steps = dice.count(10, 40);
+        }
+        Extreme::Overlap => draw.gap = -draw.height * dice.decades(-4.0, -0.2),
+        Extreme::NoSupports => draw.hold = Hold::Free,
+        Extreme::OneElement => {
+            draw.cells = [1, 1];
+            draw.round = false;
+        }
+        Extreme::Flicker => draw.flicker = true,
+        Extreme::Units => {
+            for unit in &mut draw.units {
+                if dice.chance(0.6) {
+                    *unit *= dice.one_of(&[1e-6, 1e-3, 1e3, 1e6]);
+                }
+            }
+        }
+        Extreme::AllDriven => draw.hold = Hold::All,
+        Extreme::DeadLoads => {
+            let load = dice.decades(-1.0, 1.0) * dice.one_of(&[-1.0, 1.0]);
+            if dice.chance(0.5) {
+                draw.traction = load;
+            } else {
+                draw.gravity = load;
+            }
+        }
+        Extreme::Sharp => {
+            draw.overhang = true;
+            draw.shape = if dice.chance(0.6) {
+                Shape::Cone(dice.within(5.0, 89.0))
+            } else {
+                Shape::Sphere(dice.decades(-2.0, -0.7))
+            };
+        }
+        Extreme::Touching => {
+            draw.gap = 0.0;
+            draw.matching = true;
+        }
+        Extreme::Restitution => {
+            draw.velocity_level = true;
+            draw.restitution = dice.one_of(&[0.0, 0.5, 1.0]);
+            draw.quasi_static = false;
+            draw.bond = None;
+        }
+        Extreme::Turning => draw.turn = dice.within(0.5, 6.3),
+    }
+}
+
+fn slivers(draw: &mut Draw, dice: &mut Dice) {
+    let aspect = dice.decades(1.5, 3.0);
+    match dice.count(0, 2) {
+        0 => {
+            draw.grading = if dice.chance(0.5) {
+                aspect
+            } else {
+                1.0 / aspect
+            }
+        }
+        1 => {
+            draw.height = draw.width / aspect;
+            [draw.depth, draw.slide, draw.gap] =
+                [draw.depth, draw.slide, draw.gap].map(|x| x * draw.height);
+            draw.dt *= draw.height;
+        }
+        _ => draw.width = draw.height / aspect,
+    }
+    draw.round = false;
+}
+
+/// Takes back what cannot go together, so that no run is spent on a scene that the reader of scenes refuses.
+fn reconcile(draw: &mut Draw) {
+    if draw.kind == Kind::Axisymmetric {
+        (draw.slide, draw.turn, draw.speed[0]) = (0.0, 0.0, 0.0);
+        draw.shape = match draw.shape {
+            Shape::Plane(_) => Shape::Plane(0.0),
+            Shape::Cylinder(radius) => Shape::Sphere(radius),
+            other => other,
+        };
+    }
+    if draw.hold == Hold::All && !draw.case.is_held() {
+        draw.case = Case::Press;
+    }
+    if draw.hold == Hold::Face && !draw.case.is_held() {
+        draw.hold = Hold::Free;
+    }
+    if !draw.case.is_held() {
+        // Without inertia nothing but a refusal can come of a free body, and one direction is enough to see it.
+        draw.quasi_static &= draw.extremes.contains(&Extreme::NoSupports);
+    }
+    if draw.velocity_level && draw.bond.is_some() {
+        draw.velocity_level = false;
+    }
+    if draw.velocity_level {
+        draw.quasi_static = false;
+    } else {
+        draw.restitution = 0.0;
+    }
+    if draw.kind == Kind::Plane && matches!(draw.case, Case::Indent | Case::Squeeze) {
+        // An obstacle that goes round would sweep away the body.
+        draw.turn = draw.turn.min(0.3);
+    }
+    if draw.case == Case::Squeeze {
+        draw.gap = draw.gap.min(0.01 * draw.height);
+        if draw.kind == Kind::Axisymmetric {
+            draw.round = false;
+        }
+    }
+    if draw.quasi_static {
+        draw.speed = [0.0; 2];
+    }
+    if !draw.case.is_held() && draw.gap > 0.0 {
+        // What flies arrives in the third step.
+        draw.gap = 2.5 * draw.dt * draw.speed[1];
+    }
+}

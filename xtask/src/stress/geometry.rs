@@ -1,0 +1,279 @@
+//! Penetrations from the final positions alone, without the contact search of the program.
+
+use contact_bipotential::{Master, Shape};
+use fe_core::{Facet, Motion};
+use nscd::Model;
+
+type Point = [f64; 3];
+
+fn sub(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        a[j] * b[k] - a[k] * b[j]
+    })
+}
+
+fn norm(a: Point) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// Flat displacements as current positions.
+pub(super) fn positions(model: &Model, u: &[f64]) -> Vec<Point> {
+    let dim = model.solid.dim();
+    let points = model.solid.mesh().points.iter();
+    let moved = points.zip(u.chunks_exact(dim));
+    moved
+        .map(|(x, u)| std::array::from_fn(|c| x[c] + u.get(c).copied().unwrap_or(0.0)))
+        .collect()
+}
+
+/// How deep the worst slave node lies in its master \[m\], with its node; over all interfaces.
+pub(super) fn deepest(model: &Model, x: &[Point], time: f64) -> (f64, u32) {
+    let mut worst = (0.0, 0);
+    for interface in &model.interfaces {
+        for &node in &interface.slave {
+            let at = x[node as usize];
+            let depth = match &interface.master {
+                Master::Obstacle(o) => depth_in_shape(o.shape(), o.motion(), at, time),
+                Master::Surface(s) => depth_in_body(model, &s.facets, x, node),
+            };
+            if depth > worst.0 {
+                worst = (depth, node);
+            }
+        }
+    }
+    worst
+}
+
+/// How far a node passed through a round or sharp obstacle on its straight way \[m\], seen from the obstacle.
+pub(super) fn deepest_on_the_way(
+    model: &Model,
+    [before, after]: [&[Point]; 2],
+    [t0, t1]: [f64; 2],
+) -> f64 {
+    let mut worst = 0.0_f64;
+    for interface in &model.interfaces {
+        let Master::Obstacle(obstacle) = &interface.master else {
+            continue;
+        };
+        for &node in &interface.slave {
+            let ends = [(before, t0), (after, t1)]
+                .map(|(x, t)| obstacle.motion().pull_back(x[node as usize], t));
+            for k in 1..8 {
+                let s = f64::from(k) / 8.0;
+                let at = std::array::from_fn(|i| (1.0 - s) * ends[0][i] + s * ends[1][i]);
+                worst = worst.max(-distance(obstacle.shape(), at));
+            }
+        }
+    }
+    worst
+}
+
+fn depth_in_shape(shape: &Shape, motion: &Motion, x: Point, time: f64) -> f64 {
+    -distance(shape, motion.pull_back(x, time))
+}
+
+/// Signed distance of a point to a shape at its reference position \[m\].
+fn distance(shape: &Shape, x: Point) -> f64 {
+    match *shape {
+        Shape::Plane { point, normal } => dot(sub(x, point), normal) / norm(normal),
+        Shape::Sphere { center, radius } => norm(sub(x, center)) - radius,
+        Shape::Cylinder {
+            point,
+            axis,
+            radius,
+        } => norm(cross(sub(x, point), axis)) / norm(axis) - radius,
+        Shape::Cone {
+            apex,
+            axis,
+            semi_apex_angle,
+        } => {
+            let arm = sub(x, apex);
+            let along = dot(arm, axis) / norm(axis);
+            let aside = norm(cross(arm, axis)) / norm(axis);
+            let (sin, cos) = semi_apex_angle.sin_cos();
+            // Only a ray of the surface bounds the solid; before the tip the tip is nearest.
+            if aside * sin + along * cos <= 0.0 {
+                norm(arm)
+            } else {
+                aside * cos - along * sin
+            }
+        }
+        Shape::Punch {
+            center,
+            axis,
+            radius,
+        } => {
+            let arm = sub(x, center);
+            let before = -dot(arm, axis) / norm(axis);
+            let beside = norm(cross(arm, axis)) / norm(axis) - radius;
+            if before > 0.0 && beside > 0.0 {
+                before.hypot(beside)
+            } else {
+                before.max(beside)
+            }
+        }
+    }
+}
+
+/// Distance to the master's facets of a node that lies in an element of another body, else zero. A node that is nearer to a
+/// side of the body which is no master came in there, past the rim: nothing holds it up.
+fn depth_in_body(model: &Model, facets: &[Facet], x: &[Point], node: u32) -> f64 {
+    let at = x[node as usize];
+    let bodies = model.solid.bodies();
+    let own = bodies.iter().find(|body| body.contains(&node));
+    for block in model.solid.blocks() {
+        let cells = || block.connectivity().chunks_exact(block.nodes_per_element());
+        let foreign = |cell: &[u32]| own.is_none_or(|own| !own.contains(&cell[0]));
+        let dim = model.solid.dim();
+        if cells().any(|cell| foreign(cell) && is_in_cell(dim, cell, x, at)) {
+            let key = |nodes: &[u32]| {
+                let mut key = nodes.to_vec();
+                key.sort_unstable();
+                key
+            };
+            let masters: Vec<Vec<u32>> = facets.iter().map(|f| key(f.nodes())).collect();
+            let faces: Vec<Vec<u32>> = cells().flat_map(|cell| faces(dim, cell)).collect();
+            let mut keys: Vec<Vec<u32>> = faces.iter().map(|f| key(f)).collect();
+            keys.sort_unstable();
+            let shared = |key: &Vec<u32>| {
+                keys.partition_point(|k| k <= key) - keys.partition_point(|k| k < key) > 1
+            };
+            let sides = faces.iter().filter(|f| {
+                let key = key(f);
+                !shared(&key) && !masters.contains(&key)
+            });
+            let to_side = sides
+                .map(|f| to_face(f, x, at))
+                .fold(f64::INFINITY, f64::min);
+            let to_master = facets.iter().map(|f| to_face(f.nodes(), x, at));
+            let to_master = to_master.fold(f64::INFINITY, f64::min);
+            return if to_side < to_master { 0.0 } else { to_master };
+        }
+    }
+    0.0
+}
+
+/// The faces of an element in space, its edges in the plane, by their corners.
+fn faces(dim: usize, cell: &[u32]) -> Vec<Vec<u32>> {
+    let sets: &[&[usize]] = match (dim, cell.len()) {
+        (2, 3) => &[&[0, 1], &[1, 2], &[2, 0]],
+        (2, _) => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+        (_, 4) => &[&[0, 1, 2], &[0, 1, 3], &[0, 2, 3], &[1, 2, 3]],
+        _ => &[
+            &[0, 1, 2, 3],
+            &[4, 5, 6, 7],
+            &[0, 1, 5, 4],
+            &[1, 2, 6, 5],
+            &[2, 3, 7, 6],
+            &[3, 0, 4, 7],
+        ],
+    };
+    let face = |set: &&[usize]| set.iter().map(|i| cell[*i]).collect();
+    sets.iter().map(face).collect()
+}
+
+/// Whether a point lies in an element with straight edges, cut into simplices.
+fn is_in_cell(dim: usize, cell: &[u32], x: &[Point], at: Point) -> bool {
+    let corner = |i: usize| x[cell[i] as usize];
+    match (dim, cell.len()) {
+        (2, 3) => in_triangle([0, 1, 2].map(corner), at),
+        (2, _) => [[0, 1, 2], [0, 2, 3]]
+            .iter()
+            .any(|t| in_triangle(t.map(corner), at)),
+        (_, 4) => in_tetrahedron([0, 1, 2, 3].map(corner), at),
+        _ => [
+            [0, 1, 2, 6],
+            [0, 2, 3, 6],
+            [0, 3, 7, 6],
+            [0, 7, 4, 6],
+            [0, 4, 5, 6],
+            [0, 5, 1, 6],
+        ]
+        .iter()
+        .any(|t| in_tetrahedron(t.map(corner), at)),
+    }
+}
+
+fn in_triangle([a, b, c]: [Point; 3], x: Point) -> bool {
+    let side = |p: Point, q: Point| cross(sub(q, p), sub(x, p))[2];
+    let s = [side(a, b), side(b, c), side(c, a)];
+    s.iter().all(|s| *s > 0.0) || s.iter().all(|s| *s < 0.0)
+}
+
+fn in_tetrahedron([a, b, c, d]: [Point; 4], x: Point) -> bool {
+    let volume =
+        |p: Point, q: Point, r: Point, s: Point| dot(sub(s, p), cross(sub(q, p), sub(r, p)));
+    let s = [
+        volume(x, b, c, d),
+        volume(a, x, c, d),
+        volume(a, b, x, d),
+        volume(a, b, c, x),
+    ];
+    s.iter().all(|s| *s > 0.0) || s.iter().all(|s| *s < 0.0)
+}
+
+fn to_face(nodes: &[u32], x: &[Point], at: Point) -> f64 {
+    let corners: Vec<Point> = nodes.iter().map(|n| x[*n as usize]).collect();
+    match corners[..] {
+        [a, b] => to_segment([a, b], at),
+        [a, b, c] => to_triangle([a, b, c], at),
+        [a, b, c, d] => to_triangle([a, b, c], at).min(to_triangle([a, c, d], at)),
+        _ => f64::INFINITY,
+    }
+}
+
+fn to_segment([a, b]: [Point; 2], x: Point) -> f64 {
+    let along = sub(b, a);
+    let t = (dot(sub(x, a), along) / dot(along, along)).clamp(0.0, 1.0);
+    norm(std::array::from_fn(|i| x[i] - a[i] - t * along[i]))
+}
+
+fn to_triangle([a, b, c]: [Point; 3], x: Point) -> f64 {
+    let normal = cross(sub(b, a), sub(c, a));
+    let inside = |p: Point, q: Point| dot(cross(sub(q, p), sub(x, p)), normal) >= 0.0;
+    if inside(a, b) && inside(b, c) && inside(c, a) {
+        return (dot(sub(x, a), normal) / norm(normal)).abs();
+    }
+    let edges = [[a, b], [b, c], [c, a]];
+    edges
+        .map(|e| to_segment(e, x))
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_to_shapes_and_facets() {
+        let up = [0.0, 1.0, 0.0];
+        let plane = Shape::Plane {
+            point: [0.0; 3],
+            normal: up,
+        };
+        assert_eq!(distance(&plane, [3.0, -0.5, 0.0]), -0.5);
+        let cone = Shape::Cone {
+            apex: [0.0; 3],
+            axis: [0.0, -1.0, 0.0],
+            semi_apex_angle: std::f64::consts::FRAC_PI_4,
+        };
+        assert!((distance(&cone, [0.0, -1.0, 0.0]) + 0.5_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(distance(&cone, [0.0, 2.0, 0.0]), 2.0);
+        let t = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        assert_eq!(to_triangle(t, [0.2, 0.2, 0.7]), 0.7);
+        assert_eq!(to_triangle(t, [-3.0, 0.0, 4.0]), 5.0);
+        assert!(in_triangle(t, [0.2, 0.2, 0.0]) && !in_triangle(t, [0.8, 0.8, 0.0]));
+        let t = [t[0], t[1], t[2], [0.0, 0.0, 1.0]];
+        assert!(in_tetrahedron(t, [0.1, 0.1, 0.1]) && !in_tetrahedron(t, [0.5, 0.5, 0.5]));
+    }
+}
