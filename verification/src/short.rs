@@ -42,7 +42,6 @@ const FORMS: &[(&str, &[&str])] = &[
     ("mindlin-cylinder", &["refine=1", "time.dt=0.5"]),
     ("mindlin-sphere", &mindlin::FIVE),
     ("pull-off", &["time.dt=0.1"]),
-    ("peel", &["time.end=6"]),
     ("plate-pull", &["time.dt=0.01"]),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
