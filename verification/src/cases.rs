@@ -44,7 +44,6 @@ pub fn all() -> Vec<Case> {
         contact_patch::non_matching(),
         adhesion::pull_off(),
         adhesion::pull_off_small(),
-        adhesion::peel(),
         adhesion::plate_pull(),
     ]
 }

@@ -32,17 +32,6 @@ fn the_pull_off_of_a_ball_goes_from_dmt_towards_jkr() {
     }
 }
 
-/// Whatever the stiffness of the strip in bending and of the bonds.
-#[test]
-fn a_strip_peels_at_the_energy_of_its_bonds() {
-    for sets in [&[][..], &["C_n=3.0e7"]] {
-        let measured = adhesion::peel().run(sets).unwrap();
-        let error = measured.error("force");
-        println!("{sets:?}: {error:e}, {:.1} s", measured.cpu_s);
-        assert!(error.abs() < 0.02, "{sets:?}: {error}");
-    }
-}
-
 #[test]
 fn a_row_of_bonds_follows_the_ramp_of_one() {
     let errors = [4e-3, 2e-3].map(|dt| {

@@ -80,10 +80,6 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/pull-off.ron"),
     },
     Entry {
-        name: "peel",
-        text: include_str!("../scenes/peel.ron"),
-    },
-    Entry {
         name: "plate-pull",
         text: include_str!("../scenes/plate-pull.ron"),
     },

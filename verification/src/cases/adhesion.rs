@@ -1,8 +1,8 @@
-//! Bonds against closed forms: pull-off of a ball from DMT towards JKR, peel of a strip, pull of a rigid plate.
+//! Bonds against closed forms: pull-off of a ball from DMT towards JKR, pull of a rigid plate.
 
 use std::f64::consts::PI;
 
-use crate::closed_form::{DMT, bond_ramp, maugis_parameter, peel_force};
+use crate::closed_form::{DMT, bond_ramp, maugis_parameter};
 use crate::curve::{Curve, mean, peak};
 use crate::{Case, Found, Ladder, Ran};
 
@@ -68,31 +68,6 @@ fn largest_pull(ran: &Ran) -> Result<Vec<Found>, String> {
         against,
         Found::exact("pull-off against DMT", "pi w R", pull, DMT),
     ])
-}
-
-/// Peel of a strip.
-pub fn peel() -> Case {
-    Case {
-        name: "peel",
-        about: "Steady force per width, mean over the last 10 mm of lift, against F (1 + F / (2 E' t)) = w.",
-        scene: "peel",
-        sets: Vec::new(),
-        ladders: vec![Ladder::over_refine("mesh", &[1, 2], &[])],
-        measure: steady_peel,
-    }
-}
-
-fn steady_peel(ran: &Ran) -> Result<Vec<Found>, String> {
-    let force = ran.curve("t", "force.end.y")?;
-    let end = force.last().map_or(f64::NAN, |p| p.0);
-    let late: Curve = force.into_iter().filter(|p| p.0 >= end - 10.0).collect();
-    let steady = mean(&late).ok_or("the history is empty")?;
-    Ok(vec![Found::exact(
-        "force",
-        "N/m",
-        steady,
-        peel_force(32.0, 8e3),
-    )])
 }
 
 /// Pull of a rigid plate.

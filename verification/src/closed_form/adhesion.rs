@@ -1,4 +1,4 @@
-//! Adhesion: pull-off of a ball, a bond under a ramp, peel of a strip.
+//! Adhesion: pull-off of a ball, a bond under a ramp.
 
 use std::f64::consts::PI;
 
@@ -68,12 +68,6 @@ pub fn bond_ramp(de: f64, s: f64) -> f64 {
     weight(1.0) + (0..=panels).map(node).sum::<f64>() * h / (3.0 * de)
 }
 
-/// Steady force per width [N/m] that peels a strip of `stiffness` `E' t` [N/m] off at a right angle: the end moves by `1 + F / (E' t)`
-/// per length, half of the stretch stays in the strip \[Kendall1975\].
-pub fn peel_force(w: f64, stiffness: f64) -> f64 {
-    2.0 * w / (1.0 + (1.0 + 2.0 * w / stiffness).sqrt())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -97,12 +91,5 @@ mod tests {
         let (h, s) = (1e-4, 1.7);
         let slope = (bond_ramp(0.2, s + h) - bond_ramp(0.2, s - h)) / (2.0 * h);
         assert_relative_eq!(0.2 * slope, 1.0 - s * s * bond_ramp(0.2, s), epsilon = 1e-6);
-    }
-
-    #[test]
-    fn a_strip_that_does_not_stretch_takes_the_energy_of_its_bonds() {
-        assert_relative_eq!(peel_force(32.0, 1e12), 32.0, epsilon = 1e-8);
-        let force = peel_force(32.0, 8e3);
-        assert_relative_eq!(force * (1.0 + force / 16e3), 32.0, epsilon = 1e-12);
     }
 }
