@@ -262,9 +262,8 @@ pub(crate) struct LinearisedContact {
     whole: Option<Mat<f64>>,
     /// One a contact, or none where no bond can act.
     bonds: Vec<BondStep>,
-    /// Warm start: forces, and positions.
+    /// Warm start.
     r: Vec<f64>,
-    x: Vec<f64>,
 }
 
 impl LinearisedContact {
@@ -319,7 +318,6 @@ impl LinearisedContact {
         }
         Ok(Self {
             r: select(&trial.r),
-            x: select(&trial.x),
             map,
             problem,
             whole,
@@ -341,7 +339,6 @@ impl LinearisedContact {
             ..SolveSettings::default()
         };
         let solver = &mut memory.solver;
-        solver.start_near(&self.problem, &self.bonds, &self.x, &mut self.r);
         let outcome = solver.solve(&self.problem, &self.bonds, &mut self.r, &settings);
         counters.contact_solves += 1;
         counters.bonded_solves += u64::from(!self.bonds.is_empty());

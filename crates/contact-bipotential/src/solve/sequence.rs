@@ -12,7 +12,7 @@ use faer::{Mat, MatMut, Par};
 
 use crate::cone::Cone;
 use crate::delassus::{Delassus, dense_times};
-use crate::local::{Matrix, Vector, affine, dot, load, local_axes, spatial, store};
+use crate::local::{Matrix, Vector, affine, dot, load, local_axes, store};
 use crate::problem::ContactProblem;
 use crate::rcc::BondStep;
 use crate::solve::iterate::{Iterate, Work};
@@ -31,9 +31,6 @@ const FEW: usize = 3;
 /// A factorisation costs about as much as one GMRES iteration for each so many rows: the factors are renewed when the
 /// iterations beyond [`FEW`] have cost as much as new ones.
 const ROWS_PER_ITERATION: usize = 60;
-/// Error from which Newton's method goes no lower where forces cancel, as between soft bodies and stiff bonds; sweeps would
-/// not either.
-const ROUND_OFF: f64 = 1e-10;
 /// Relative residual of the linear system of a Newton step.
 const FORCING: f64 = 1e-3;
 
@@ -68,70 +65,12 @@ impl SequenceSolver {
             Cone::Spatial => self.attempt::<3>(problem, bonds, w, r, settings),
         };
         let outcome = attempt(r);
-        let error = outcome.error.max(outcome.error_scale_free);
-        if outcome.is_converged() || error <= ROUND_OFF {
+        if outcome.is_converged() {
             return outcome;
         }
         let mut rest = solve_bonded(problem, bonds, r, settings);
         rest.iterations += outcome.iterations;
         rest
-    }
-
-    /// A better start for a problem with bonds whose end positions `x` \[m\] are known roughly: one Newton step with the bonds
-    /// linearised there, and not where the old `r` would put soft bodies. `r` stays if that does not come closer.
-    pub fn start_near(
-        &mut self,
-        problem: &ContactProblem,
-        bonds: &[BondStep],
-        x: &[f64],
-        r: &mut [f64],
-    ) {
-        let size = problem.q.len();
-        let Delassus::Dense(w) = &problem.w else {
-            return;
-        };
-        let sized = r.len() == size && x.len() == size;
-        if bonds.is_empty() || !sized || problem.check().is_err() {
-            return;
-        }
-        match problem.cone {
-            Cone::Frictionless => self.near::<1>(&Truth::bonded(problem, bonds), w, x, r),
-            Cone::Planar => self.near::<2>(&Truth::bonded(problem, bonds), w, x, r),
-            Cone::Spatial => self.near::<3>(&Truth::bonded(problem, bonds), w, x, r),
-        }
-    }
-
-    fn near<const D: usize>(&mut self, truth: &Truth<'_>, w: &Mat<f64>, x: &[f64], r: &mut [f64]) {
-        let mut best = Iterate::new(truth, r);
-        let mut there = best.clone();
-        for (c, bond) in truth.bonds().iter().enumerate() {
-            let (mut u, old) = (load::<D>(x, c), load::<D>(r, c));
-            let (reaction, is_pressed) = reaction_at(bond, &u, &old);
-            if !is_pressed {
-                // The tangent of a bond that opens: one that closes resists with pressure only.
-                u[D - 1] = u[D - 1].max(f64::MIN_POSITIVE);
-            }
-            store(&mut there.u, c, &u);
-            store(&mut there.r, c, &reaction);
-        }
-        // What separates the positions that the forces make from those that they were evaluated at.
-        let mut apart = vec![0.0; x.len()];
-        truth.velocity(&there.r, &mut apart);
-        apart.iter_mut().zip(&there.u).for_each(|(a, u)| *a -= u);
-        let system = System::<D>::new(truth, w, &there);
-        let mut rhs = system.right_side();
-        for c in 0..truth.bonds().len() {
-            let rows = system.rows(c, &[0.0; D], &load::<D>(&apart, c));
-            let mut b = load::<D>(&rhs, c);
-            b.iter_mut().zip(&rows).for_each(|(b, row)| *b -= row);
-            store(&mut rhs, c, &b);
-        }
-        let Some(dr) = self.step(&system, rhs) else {
-            return;
-        };
-        there.r.iter_mut().zip(&dr).for_each(|(r, d)| *r += d);
-        best.keep_better(&Iterate::new(truth, &there.r));
-        r.copy_from_slice(&best.r);
     }
 
     pub(super) fn attempt<const D: usize>(
@@ -151,20 +90,16 @@ impl SequenceSolver {
         {
             work.newton_steps += 1;
             let system = System::<D>::new(&truth, w, &x);
-            let Some(dr) = self.step(&system, system.right_side()) else {
-                break;
-            };
+            let Some(dr) = self.step(&system) else { break };
             x = backtrack(&truth, &x, &dr);
-            let met_round_off = best.is_within(ROUND_OFF);
-            if !best.keep_better(&x) && met_round_off {
-                break;
-            }
+            best.keep_better(&x);
         }
         finish(&truth, r, best, settings, Method::Newton, work)
     }
 
     /// The Newton step: by GMRES with the remembered factors, or with new ones.
-    fn step<const D: usize>(&mut self, system: &System<'_, D>, rhs: Vec<f64>) -> Option<Vec<f64>> {
+    fn step<const D: usize>(&mut self, system: &System<'_, D>) -> Option<Vec<f64>> {
+        let rhs = system.right_side();
         let worth_it = self.excess * ROWS_PER_ITERATION <= rhs.len();
         if let Some(factor) = self
             .factor
@@ -180,26 +115,6 @@ impl SequenceSolver {
         let mut dr = rhs;
         factor.solve(&mut dr);
         dr.iter().all(|x| x.is_finite()).then_some(dr)
-    }
-}
-
-/// The reaction at the end position `u`: the bond's force there, and what the `old` reaction has beyond it if that presses
-/// harder than an intact bond that opens so far would pull; whether it does.
-fn reaction_at<const D: usize>(
-    bond: &BondStep,
-    u: &Vector<D>,
-    old: &Vector<D>,
-) -> (Vector<D>, bool) {
-    let at = bond.at(&spatial(u));
-    let mut pull = [0.0; D];
-    for (i, axis) in local_axes(D).iter().enumerate() {
-        pull[i] = at.force[*axis];
-    }
-    let opening = bond.spring(1.0).0[2] * u[D - 1].max(0.0);
-    if old[D - 1] - pull[D - 1] > opening {
-        (*old, true)
-    } else {
-        (pull, false)
     }
 }
 
