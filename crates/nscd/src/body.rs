@@ -11,6 +11,8 @@ use crate::scheme::Weights;
 
 /// Relative residual of a linear solve that needs no refinement.
 const GOOD_SOLVE: f64 = 1e-10;
+/// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown.
+const FLOATING: f64 = 1e-4;
 /// Relative residual of a linear solve after refinement that is still believed.
 const LAST_SOLVE: f64 = 1e-6;
 
@@ -19,6 +21,8 @@ const LAST_SOLVE: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct BodySystem {
     index: usize,
+    /// Without mass supports alone do not hold the body: some rigid motion costs no force.
+    pub(crate) floating: bool,
     /// Global dof of each equation.
     pub(crate) dofs: Vec<u32>,
     pattern: SymmetricPattern,
@@ -32,6 +36,7 @@ pub(crate) struct BodySystem {
     factored: Option<Weights>,
     contraction: Option<f64>,
     largest_stiffness: f64,
+    largest_diagonal: f64,
     epoch: u64,
     forward: Vec<f64>,
     rhs: Vec<f64>,
@@ -81,6 +86,7 @@ impl BodySystem {
         let n = dofs.len();
         Ok(Self {
             index,
+            floating: false,
             factor: Factor::new(lower)?,
             values: vec![0.0; pattern.row_indices().len()],
             dofs,
@@ -91,6 +97,7 @@ impl BodySystem {
             factored: None,
             contraction: None,
             largest_stiffness: 0.0,
+            largest_diagonal: 0.0,
             epoch: 0,
             forward: vec![0.0; n],
             rhs: vec![0.0; n],
@@ -144,14 +151,16 @@ impl BodySystem {
         self.largest_stiffness
     }
 
-    /// Largest diagonal entry of the matrix in use [N/m].
+    /// Largest diagonal entry of the matrix in use [N/m], without what was added to make it definite: round-off does not grow
+    /// with that.
     pub(crate) fn largest_diagonal(&self) -> f64 {
-        self.pattern
-            .column_pointers()
-            .iter()
-            .take(self.dofs.len())
-            .map(|&k| self.values[k])
-            .fold(0.0, f64::max)
+        self.largest_diagonal
+    }
+
+    fn largest_on_diagonal(&self) -> f64 {
+        let diagonal = self.pattern.column_pointers().iter();
+        let diagonal = diagonal.take(self.dofs.len());
+        diagonal.map(|&k| self.values[k]).fold(0.0, f64::max)
     }
 
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
@@ -170,7 +179,7 @@ impl BodySystem {
         self.surface = None;
         self.pattern
             .gather_tangent(work, weights.stiffness, &mut self.values);
-        self.largest_stiffness = self.largest_diagonal();
+        self.largest_stiffness = self.largest_on_diagonal();
         if let Some((initial, factor)) = parts.initial_stiffness {
             let mut damping = vec![0.0; self.values.len()];
             self.pattern
@@ -184,9 +193,22 @@ impl BodySystem {
         if mass != 0.0 {
             self.pattern.add_mass(parts.mass, mass, &mut self.values);
         }
+        self.largest_diagonal = self.largest_on_diagonal();
+        if self.floating {
+            self.stiffen(FLOATING);
+        }
         self.factorize_shifted(counters)?;
         self.factored = Some(weights);
         Ok(())
+    }
+
+    /// Adds a part of the largest diagonal entry to the whole diagonal. The residual stays exact, so a body that
+    /// contacts hold goes to its equilibrium in a few short steps more.
+    fn stiffen(&mut self, part: f64) {
+        let shift = part * self.largest_diagonal;
+        for k in 0..self.dofs.len() {
+            self.values[self.pattern.column_pointers()[k]] += shift;
+        }
     }
 
     fn factorize_shifted(&mut self, counters: &mut Counters) -> Result<(), StepFailure> {

@@ -13,6 +13,7 @@ mod contact;
 mod energy;
 mod error;
 mod extrapolation;
+mod floating;
 mod law;
 mod linear;
 mod march;

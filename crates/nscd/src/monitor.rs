@@ -25,6 +25,7 @@ pub(crate) struct Check {
     pub(crate) converged: bool,
     /// Largest residual force on a free dof \[N\], its node, and what is allowed.
     pub(crate) residual: f64,
+    dof: u32,
     node: usize,
     allowed: f64,
     newton_tolerance: f64,
@@ -51,6 +52,11 @@ impl Check {
     fn distance(&self) -> f64 {
         let balance = self.residual / self.allowed.max(f64::MIN_POSITIVE);
         balance.max(self.contact_error / self.contact_tolerance)
+    }
+
+    /// Whether the largest residual that is not allowed stands in this body.
+    pub(crate) fn is_left_in(&self, body: &BodySystem) -> bool {
+        self.residual > self.allowed && body.dofs.contains(&self.dof)
     }
 
     pub(crate) fn failure(&self, frame: &StepFrame<'_>, trial: &Trial) -> StepFailure {
@@ -150,7 +156,7 @@ impl Monitor {
             .fold(0.0, f64::max);
         let floor = ROUND_OFF * (stiffness * travel + elastic * self.element_size);
         self.allowed = (settings.newton_tolerance * scale).max(floor);
-        let (residual, node) = self.residual(stepper, trial)?;
+        let (residual, dof) = self.residual(stepper, trial)?;
         let law = stepper.memory.law_error(frame.model, trial, stiffness);
         let force = largest(&trial.r);
         let floor = ROUND_OFF * stiffness * (self.extent + travel);
@@ -164,7 +170,8 @@ impl Monitor {
                 && (residual <= self.allowed || self.is_round_off(residual))
                 && contact_error <= settings.contact_tolerance,
             residual,
-            node,
+            dof,
+            node: dof as usize / frame.model.solid.dim(),
             allowed: self.allowed,
             newton_tolerance: settings.newton_tolerance,
             law,
@@ -203,12 +210,12 @@ impl Monitor {
         self.iteration >= 2 * STAGNATION && !fallen && residual <= CLOSE * self.allowed
     }
 
-    /// Largest residual and its node; the contraction of every body goes to the body.
+    /// Largest residual and its dof; the contraction of every body goes to the body.
     fn residual(
         &mut self,
         stepper: &mut Stepper<'_>,
         trial: &Trial,
-    ) -> Result<(f64, usize), StepFailure> {
+    ) -> Result<(f64, u32), StepFailure> {
         let dim = stepper.model().solid.dim();
         let mut worst = (0.0, 0);
         for (body, last) in stepper.bodies.iter_mut().zip(&mut self.norms) {
@@ -223,7 +230,7 @@ impl Monitor {
                 if size > norm {
                     norm = size;
                     if size > worst.0 {
-                        worst = (size, d as usize / dim);
+                        worst = (size, d);
                     }
                 }
             }
