@@ -171,7 +171,7 @@ fn tail(made: &[Made]) -> String {
 const LIMITS: &str = "\n\
 A run is *completed* when it reached its end and every accepted step, recomputed from its state alone, is what it claims to be:\n\
 all numbers finite; forces, inertia and reactions in balance at every node and in sum; kinetic and strain energy those of the\n\
-state, and the audit of the energies closed (*open audit*: share of the largest energy or work); every contact in its cone, closed\n\
+state, and the audit of the energies closed (*open audit*: share of the largest energy or work, beyond round-off); every contact in its cone, closed\n\
 where it presses, sliding against its friction (*contact error*: the larger of the recomputed and the reported one); beta in\n\
 [0, 1]; no slave node deeper in its master than reported, found without the contact search, at the end or on the way. *Warned*:\n\
 the time integration made up more than a tenth of the energy, which `summary.json` says too. *Stopped*: no step down to a\n\
