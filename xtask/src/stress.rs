@@ -11,7 +11,7 @@ mod text;
 use std::path::{Path, PathBuf};
 
 use crate::{Outcome, root};
-use draw::{Draw, draw};
+use draw::{DIRECTIONS, Draw, draw};
 use runs::{End, Found};
 
 pub(crate) use draw::Case;
@@ -73,8 +73,11 @@ pub(crate) struct Made {
 pub(crate) fn run(options: &Options) -> Outcome {
     let wanted = |index: &usize| match options.index {
         Some(only) => *index == only,
-        // A stride would meet the same few directions again and again.
-        None => (*index as f64 * options.share).fract() < options.share,
+        None => {
+            // The directions take turns; without the shift a stride would meet the same few of them again and again.
+            let place = (index + index / DIRECTIONS) as f64 * options.share;
+            (place + options.share).floor() > place.floor()
+        }
     };
     let draws: Vec<(usize, Draw)> = (0..options.runs.max(options.index.map_or(0, |i| i + 1)))
         .filter(wanted)

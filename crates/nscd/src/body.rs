@@ -11,6 +11,8 @@ use crate::scheme::Weights;
 
 /// Relative residual of a linear solve that needs no refinement.
 const GOOD_SOLVE: f64 = 1e-10;
+/// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown.
+const FLOATING: f64 = 1e-4;
 /// Relative residual of a linear solve after refinement that is still believed.
 const LAST_SOLVE: f64 = 1e-6;
 
@@ -19,6 +21,8 @@ const LAST_SOLVE: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct BodySystem {
     index: usize,
+    /// Without mass supports alone do not hold the body: some rigid motion costs no force.
+    pub(crate) floating: bool,
     /// Global dof of each equation.
     pub(crate) dofs: Vec<u32>,
     pattern: SymmetricPattern,
@@ -31,8 +35,9 @@ pub(crate) struct BodySystem {
     /// Weights of the factor in use; `None` when there is none.
     factored: Option<Weights>,
     contraction: Option<f64>,
-    /// Diagonal of the stiffness part of the matrix in use [N/m].
-    elastic: Vec<f64>,
+    /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m], without what was added to make it definite:
+    /// round-off does not grow with that.
+    diagonals: Vec<[f64; 2]>,
     epoch: u64,
     forward: Vec<f64>,
     rhs: Vec<f64>,
@@ -82,6 +87,7 @@ impl BodySystem {
         let n = dofs.len();
         Ok(Self {
             index,
+            floating: false,
             factor: Factor::new(lower)?,
             values: vec![0.0; pattern.row_indices().len()],
             dofs,
@@ -91,7 +97,7 @@ impl BodySystem {
             surface: None,
             factored: None,
             contraction: None,
-            elastic: vec![0.0; n],
+            diagonals: vec![[0.0; 2]; n],
             epoch: 0,
             forward: vec![0.0; n],
             rhs: vec![0.0; n],
@@ -141,20 +147,24 @@ impl BodySystem {
     }
 
     /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m].
-    pub(crate) fn diagonals(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let whole = self.diagonal().map(|k| self.values[k]);
-        whole.zip(&self.elastic).map(|(w, e)| [w, *e])
-    }
-
-    /// Where the diagonal stands among the values of the matrix.
-    fn diagonal(&self) -> impl Iterator<Item = usize> + '_ {
-        let columns = self.pattern.column_pointers().iter();
-        columns.take(self.dofs.len()).copied()
+    pub(crate) fn diagonals(&self) -> &[[f64; 2]] {
+        &self.diagonals
     }
 
     /// Largest diagonal entry of the matrix in use [N/m].
     pub(crate) fn largest_diagonal(&self) -> f64 {
-        self.diagonal().map(|k| self.values[k]).fold(0.0, f64::max)
+        self.diagonals
+            .iter()
+            .fold(0.0, |m, [whole, _]| m.max(*whole))
+    }
+
+    /// The diagonal of the matrix as it is.
+    fn diagonal(&self) -> Vec<f64> {
+        let columns = self.pattern.column_pointers().iter();
+        columns
+            .take(self.dofs.len())
+            .map(|&k| self.values[k])
+            .collect()
     }
 
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
@@ -173,7 +183,7 @@ impl BodySystem {
         self.surface = None;
         self.pattern
             .gather_tangent(work, weights.stiffness, &mut self.values);
-        self.elastic = self.diagonal().map(|k| self.values[k]).collect();
+        let elastic = self.diagonal();
         if let Some((initial, factor)) = parts.initial_stiffness {
             let mut damping = vec![0.0; self.values.len()];
             self.pattern
@@ -187,9 +197,23 @@ impl BodySystem {
         if mass != 0.0 {
             self.pattern.add_mass(parts.mass, mass, &mut self.values);
         }
+        let both = self.diagonal().into_iter().zip(elastic);
+        self.diagonals = both.map(|(whole, elastic)| [whole, elastic]).collect();
+        if self.floating {
+            self.stiffen(FLOATING);
+        }
         self.factorize_shifted(counters)?;
         self.factored = Some(weights);
         Ok(())
+    }
+
+    /// Adds a part of the largest diagonal entry to the whole diagonal. The residual stays exact, so a body that
+    /// contacts hold goes to its equilibrium in a few short steps more.
+    fn stiffen(&mut self, part: f64) {
+        let shift = part * self.largest_diagonal();
+        for k in 0..self.dofs.len() {
+            self.values[self.pattern.column_pointers()[k]] += shift;
+        }
     }
 
     fn factorize_shifted(&mut self, counters: &mut Counters) -> Result<(), StepFailure> {

@@ -26,8 +26,8 @@ pub enum NscdError {
     },
     /// A quasi-static body that nothing holds.
     #[error(
-        "the body of node {node} has no prescribed motion: without inertia nothing holds it; hold some of its nodes, or \
-         give it inertia"
+        "the prescribed motions leave the body of node {node} free to move as a whole: without inertia nothing holds it; hold \
+         more of its nodes, or give it inertia"
     )]
     Unsupported {
         /// First node of the body.
@@ -79,7 +79,9 @@ pub enum NscdError {
 #[non_exhaustive]
 pub enum StepFailure {
     /// An element turned inside out and smaller corrections did not help.
-    #[error("{0}; try smaller steps or a finer mesh there")]
+    #[error(
+        "{0}: try smaller steps or a finer mesh there; where the body is crushed, a law that resists the collapse of matter"
+    )]
     Element(String),
     /// Newton's iteration did not reach the tolerance.
     #[error(
@@ -133,6 +135,28 @@ pub enum StepFailure {
         body: usize,
         /// Relative residual after refinement.
         residual: f64,
+    },
+    /// A body that only contacts could hold finds no equilibrium.
+    #[error(
+        "the body of node {node} can move as a whole and finds no contact that holds it; hold more of its nodes, start it in \
+         contact, or give it inertia and damping"
+    )]
+    Adrift {
+        /// First node of the body.
+        node: usize,
+    },
+    /// A slave node went through a round or sharp obstacle.
+    #[error(
+        "node {node} of interface \"{interface}\" goes through its obstacle in one step, {travel:e} m from one side to the \
+         other; try smaller steps"
+    )]
+    Passed {
+        /// The node.
+        node: u32,
+        /// Name of the interface.
+        interface: String,
+        /// Its way, seen from the obstacle \[m\].
+        travel: f64,
     },
     /// A contact on the rim of a deformable master came and went with the iterations.
     #[error(

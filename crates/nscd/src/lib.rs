@@ -13,6 +13,7 @@ mod contact;
 mod energy;
 mod error;
 mod extrapolation;
+mod floating;
 mod held;
 mod law;
 mod linear;

@@ -26,6 +26,7 @@ pub(crate) struct Check {
     /// Largest residual force on a free dof \[N\], its node, and what is allowed; where round-off is larger than what
     /// is allowed, the force counts in that ratio.
     pub(crate) residual: f64,
+    dof: u32,
     node: usize,
     allowed: f64,
     newton_tolerance: f64,
@@ -52,6 +53,11 @@ impl Check {
     fn distance(&self) -> f64 {
         let balance = self.residual / self.allowed.max(f64::MIN_POSITIVE);
         balance.max(self.contact_error / self.contact_tolerance)
+    }
+
+    /// Whether the largest residual that is not allowed stands in this body.
+    pub(crate) fn is_left_in(&self, body: &BodySystem) -> bool {
+        self.residual > self.allowed && body.dofs.contains(&self.dof)
     }
 
     pub(crate) fn failure(&self, frame: &StepFrame<'_>, trial: &Trial) -> StepFailure {
@@ -146,7 +152,7 @@ impl Monitor {
         .fold(0.0, f64::max);
         let base = settings.newton_tolerance * scale;
         let unknown = if factored > 0.0 { 0.0 } else { stiffness };
-        let (residual, node) = self.residual(stepper, trial, base, unknown, travel)?;
+        let (residual, dof) = self.residual(stepper, trial, base, unknown, travel)?;
         let blur = ROUND_OFF * (self.extent + travel) / settings.contact_tolerance;
         let law = stepper
             .memory
@@ -158,7 +164,8 @@ impl Monitor {
                 && (residual <= self.allowed || self.is_round_off(residual))
                 && contact_error <= settings.contact_tolerance,
             residual,
-            node,
+            dof,
+            node: dof as usize / frame.model.solid.dim(),
             allowed: self.allowed,
             newton_tolerance: settings.newton_tolerance,
             law,
@@ -197,7 +204,7 @@ impl Monitor {
         self.iteration >= 2 * STAGNATION && !fallen && residual <= CLOSE * self.allowed
     }
 
-    /// Largest residual and its node; the contraction of every body goes to the body. `base` is what is allowed where
+    /// Largest residual and its dof; the contraction of every body goes to the body. `base` is what is allowed where
     /// round-off is no matter \[N\], `unknown` the stiffness before the first factorization [N/m], `travel` the size of the displacements \[m\].
     ///
     /// The bound is one for each dof: on a graded mesh the round-off of the largest elements would hide all that
@@ -209,7 +216,7 @@ impl Monitor {
         base: f64,
         unknown: f64,
         travel: f64,
-    ) -> Result<(f64, usize), StepFailure> {
+    ) -> Result<(f64, u32), StepFailure> {
         let dim = stepper.model().solid.dim();
         let sizes = &self.element_size;
         // Strains carry the round-off of numbers of size one, displacements that of their own size.
@@ -217,7 +224,7 @@ impl Monitor {
             .bodies
             .iter()
             .map(|body| {
-                let around = |(d, [whole, elastic]): (&u32, [f64; 2])| {
+                let around = |(d, [whole, elastic]): (&u32, &[f64; 2])| {
                     ROUND_OFF * ((whole + unknown) * travel + elastic * sizes[*d as usize / dim])
                 };
                 body.dofs.iter().zip(body.diagonals()).map(around).collect()
@@ -244,7 +251,7 @@ impl Monitor {
                 if size > norm {
                     norm = size;
                     if size > worst.0 {
-                        worst = (size, d as usize / dim);
+                        worst = (size, d);
                     }
                 }
             }

@@ -1,6 +1,6 @@
 //! Where a step looks for contacts.
 
-use contact_bipotential::{Contact, ContactMap, Master};
+use contact_bipotential::{Contact, ContactMap, Interface, Master, Obstacle, Shape};
 
 use crate::contact::filtered;
 use crate::error::StepFailure;
@@ -68,8 +68,12 @@ impl Stepper<'_> {
         let end = self.model.positions(&trial.u);
         let dim = self.model.solid.dim();
         for interface in &self.model.interfaces {
-            let Master::Surface(master) = &interface.master else {
-                continue;
+            let master = match &interface.master {
+                Master::Surface(master) => master,
+                Master::Obstacle(obstacle) => {
+                    refuse_passing(interface, obstacle, [&start, &end], dim, frame)?;
+                    continue;
+                }
             };
             let swept = |nodes: &[u32]| Swept::of(nodes, dim, &start, &end);
             let (slave, master) = (swept(&interface.slave), swept(&master.nodes));
@@ -96,4 +100,46 @@ impl Stepper<'_> {
         self.book(Phase::Detection, start);
         map
     }
+}
+
+/// A node that ends a step on the other side of a ball, a cylinder or a tip, and was inside on its straight way, has jumped
+/// through it: gaps at the end of the step do not tell.
+fn refuse_passing(
+    interface: &Interface,
+    obstacle: &Obstacle,
+    [start, end]: [&[f64]; 2],
+    dim: usize,
+    frame: &StepFrame<'_>,
+) -> Result<(), StepFailure> {
+    if matches!(obstacle.shape(), Shape::Plane { .. }) {
+        return Ok(());
+    }
+    let placed = obstacle.over_step(frame.now.time, frame.end());
+    let motion = obstacle.motion();
+    let point = |x: &[f64], node: u32| -> [f64; 3] {
+        let at = &x[dim * node as usize..dim * (node as usize + 1)];
+        std::array::from_fn(|c| at.get(c).copied().unwrap_or(0.0))
+    };
+    for &node in &interface.slave {
+        let from = motion.pull_back(point(start, node), frame.now.time);
+        let (from, to) = (motion.position(from, frame.end()), point(end, node));
+        let (a, b) = (placed.closest(from, 0.0), placed.closest(to, 0.0));
+        let turn: f64 = (0..3).map(|c| a.normal[c] * b.normal[c]).sum();
+        let inside = |k: i32| {
+            let s = f64::from(k) / 8.0;
+            let at = std::array::from_fn(|c| (1.0 - s) * from[c] + s * to[c]);
+            placed.closest(at, 0.0).gap < a.gap.min(b.gap).min(0.0)
+        };
+        if turn < 0.0 && (1..8).any(inside) {
+            return Err(StepFailure::Passed {
+                node,
+                interface: interface.name.clone(),
+                travel: (0..3)
+                    .map(|c| (to[c] - from[c]).powi(2))
+                    .sum::<f64>()
+                    .sqrt(),
+            });
+        }
+    }
+    Ok(())
 }

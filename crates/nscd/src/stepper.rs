@@ -8,9 +8,10 @@ use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
 use crate::contact::{ContactMemory, LinearisedContact, cone_of};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
+use crate::floating::is_floating;
 use crate::law::local_variable;
 use crate::model::Model;
-use crate::monitor::Monitor;
+use crate::monitor::{Check, Monitor};
 use crate::ordering::Graph;
 use crate::report::{Clock, Counters, Phase, Phases, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
@@ -58,8 +59,13 @@ impl<'m> Stepper<'m> {
         // A body that is driven as a whole has no system to solve.
         let bodies = (0..all.len())
             .filter(|&b| all[b].iter().any(unknown))
-            .map(|b| BodySystem::new(&model.solid, graph, b, &fixed, &candidate))
-            .collect::<Result<_, _>>()?;
+            .map(|b| {
+                let mut body = BodySystem::new(&model.solid, graph, b, &fixed, &candidate)?;
+                let massless = model.scheme.inertia == Inertia::QuasiStatic;
+                body.floating = massless && is_floating(model, &all[b], &fixed);
+                Ok(body)
+            })
+            .collect::<Result<_, NscdError>>()?;
         let mut work = model.solid.workspace();
         let initial_stiffness = if model.damping.stiffness > 0.0 {
             let zero = vec![0.0; model.dof_count()];
@@ -146,7 +152,7 @@ impl<'m> Stepper<'m> {
                 return Ok(self.accept(&frame, trial, &check));
             }
             if check.iteration == self.model.settings.newton_iterations {
-                return Err(check.failure(&frame, &trial));
+                return Err(self.no_equilibrium(&frame, &trial, &check));
             }
             self.refresh_tangents(&frame, &trial, &monitor)?;
             let correction = self.correction(
@@ -156,6 +162,20 @@ impl<'m> Stepper<'m> {
             )?;
             self.apply(&frame, &mut trial, correction)?;
             self.counters.newton_iterations += 1;
+        }
+    }
+
+    /// Why the iterations did not suffice.
+    fn no_equilibrium(&self, frame: &StepFrame<'_>, trial: &Trial, check: &Check) -> StepFailure {
+        let adrift = self
+            .bodies
+            .iter()
+            .find(|body| body.floating && check.is_left_in(body));
+        match adrift {
+            Some(body) => StepFailure::Adrift {
+                node: body.dofs[0] as usize / frame.model.solid.dim(),
+            },
+            None => check.failure(frame, trial),
         }
     }
 
@@ -420,16 +440,20 @@ fn detector(model: &Model) -> Result<Detector, NscdError> {
     })
 }
 
-/// Without mass, a body that nothing holds has no equilibrium that a matrix could find: contact
-/// forces enter after the factorization.
+/// Without mass, a body that nothing holds has no equilibrium: neither supports nor, where it can touch something, contacts
+/// together with some support.
 fn refuse_unsupported(model: &Model, fixed: &[bool]) -> Result<(), NscdError> {
     if model.scheme.inertia == Inertia::Dynamic {
         return Ok(());
     }
     let dim = model.solid.dim();
+    let candidate = model.candidates();
     let free = |n: u32| (0..dim).all(|c| !fixed[dim * n as usize + c]);
-    let mut bodies = model.solid.bodies().iter();
-    match bodies.find(|body| body.iter().all(|&n| free(n))) {
+    let unheld = |body: &&Vec<u32>| {
+        let lonely = body.iter().all(|&n| !candidate[n as usize]);
+        body.iter().all(|&n| free(n)) || lonely && is_floating(model, body, fixed)
+    };
+    match model.solid.bodies().iter().find(unheld) {
         Some(body) => Err(NscdError::Unsupported {
             node: body[0] as usize,
         }),

@@ -131,3 +131,58 @@ fn bonds_on_a_round_obstacle_stay_in_the_plane() {
     }
     assert!(stretched > 10, "no bond is stretched on a slope");
 }
+
+/// A node that a fast, small ball overtakes in one step is not believed, though both ends of its way lie outside.
+#[test]
+fn a_ball_that_jumps_through_a_node_is_noticed() {
+    let text = |dt: f64| {
+        format!(
+            r#"(
+    title: "jump",
+    materials: {{"soft": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)}},
+    bodies: {{"block": (mesh: Rectangle(min: (-0.01, 0.0), max: (0.01, 0.01), cells: (2, 1)), material: "soft")}},
+    motions: {{"held": (nodes: "block.y_max", components: "xy")}},
+    interfaces: {{"contact": (slave: "block.y_min", master: Sphere(center: (0.0, -0.002, 0.0), radius: 0.001),
+        motion: Move(translation: (0.0, [(0.0, 0.0), (1.0, 0.004)], 0.0)))}},
+    time: (end: 1.0, dt: {dt:?}, min_dt: Some({dt:?}), inertia: QuasiStatic),
+)"#
+        )
+    };
+    let jumped = try_run(&scene_text(&text(1.0), &[]));
+    let Err(NscdError::Stopped { failure, .. }) = jumped.end else {
+        panic!("{:?}", jumped.end)
+    };
+    assert!(matches!(failure, StepFailure::Passed { .. }), "{failure}");
+    let slow = try_run(&scene_text(&text(0.05), &[]));
+    assert!(slow.end.is_ok(), "{:?}", slow.end);
+    assert!(slow.contact_force(1).iter().any(|f| *f > 1.0));
+}
+
+/// Without inertia a block that only rests on a plane, guided from the side, carries its load; without a plane to rest on it
+/// is told that nothing holds it.
+#[test]
+fn contact_alone_may_hold_a_quasi_static_body() {
+    let text = |gap: f64| {
+        format!(
+            r#"(
+    title: "rests",
+    materials: {{"soft": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)}},
+    bodies: {{"block": (mesh: Rectangle(min: (0.0, {gap:?}), max: (0.01, 0.02), cells: (2, 2)), material: "soft")}},
+    motions: {{"guide": (nodes: "block.x_min", components: "x")}},
+    loads: {{"top": Traction(facets: "block.y_max", traction: (0.0, -1.0e4, 0.0), factor: [(0.0, 0.0), (1.0, 1.0)])}},
+    interfaces: {{"contact": (slave: "block.y_min", master: Plane(point: (0.0, 0.0, 0.0), normal: (0.0, 1.0, 0.0)))}},
+    time: (end: 1.0, dt: 0.25, inertia: QuasiStatic),
+)"#
+        )
+    };
+    let rests = run(&scene_text(&text(0.0), &[]));
+    let force = rests.contact_force(1);
+    assert!((force[3] / 100.0 - 1.0).abs() < 1e-9, "{force:?}");
+    assert!(rests.steps.iter().all(|s| s.report.penetration < 1e-9));
+    let pulled = text(0.0).replace("-1.0e4", "1.0e4");
+    let lost = try_run(&scene_text(&pulled, &[]));
+    let Err(NscdError::Stopped { failure, .. }) = lost.end else {
+        panic!("{:?}", lost.end)
+    };
+    assert!(matches!(failure, StepFailure::Adrift { .. }), "{failure}");
+}

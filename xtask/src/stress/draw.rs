@@ -40,6 +40,9 @@ impl Case {
     }
 }
 
+/// Number of [`Extreme`]s.
+pub(super) const DIRECTIONS: usize = 22;
+
 /// One direction in which a run leaves what is usual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Extreme {
@@ -69,7 +72,7 @@ pub(super) enum Extreme {
 
 impl Extreme {
     /// Every direction with what the map says of it.
-    pub(super) const ALL: [(Extreme, &str); 22] = [
+    pub(super) const ALL: [(Extreme, &str); DIRECTIONS] = [
         (Extreme::Friction, "friction: mu 1, 1.9, 3 or 10"),
         (Extreme::Stiffness, "stiffness ratio 1e-6 to 1e6"),
         (Extreme::Density, "density ratio 1e-6 to 1e6"),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::Made;
-use super::draw::Extreme;
+use super::draw::{Extreme, Law};
 use super::runs::{End, Found};
 
 /// Share of the energy made up by the time integration beyond which a run is warned of, as in its summary.
@@ -147,7 +147,7 @@ pub(super) fn markdown(made: &[Made], seed: u64) -> String {
         );
     }
     row("**all runs**", &Count::of(made.iter()));
-    text.push_str(TAIL);
+    text.push_str(&tail(made));
     text
 }
 
@@ -156,4 +156,43 @@ const HEAD: &str = "# What the numerics survive\n\n\
     Run `k` is the same everywhere: `cargo xtask stress --index k --write DIR` makes it alone and writes its scene. CI makes a tenth.\n\n";
 const TABLE: &str = "| what is extreme | runs | completed | of these warned | refused | stopped, why | cut | wrong | open audit | contact error | CPU \\[s\\] |\n\
     |---|---:|---:|---:|---:|---|---:|---:|---:|---:|---:|";
-const TAIL: &str = "\n";
+/// What limits there are and what to do about them.
+fn tail(made: &[Made]) -> String {
+    let inverted = made
+        .iter()
+        .filter(|m| matches!(m.found.end, End::Stopped("element inverted", _)));
+    let soft = |m: &&Made| matches!(m.draw.law, Law::SaintVenantKirchhoff | Law::ThreeE);
+    let (all, soft) = (inverted.clone().count(), inverted.filter(soft).count());
+    LIMITS
+        .replace("{inverted}", &all.to_string())
+        .replace("{soft}", &soft.to_string())
+}
+
+const LIMITS: &str = "\n\
+A run is *completed* when it reached its end and every accepted step, recomputed from its state alone, is what it claims to be:\n\
+all numbers finite; forces, inertia and reactions in balance at every node and in sum; kinetic and strain energy those of the\n\
+state, and the audit of the energies closed (*open audit*: share of the largest energy or work, beyond round-off); every contact in its cone, closed\n\
+where it presses, sliding against its friction (*contact error*: the larger of the recomputed and the reported one); beta in\n\
+[0, 1]; no slave node deeper in its master than reported, found without the contact search, at the end or on the way. *Warned*:\n\
+the time integration made up more than a tenth of the energy, which `summary.json` says too. *Stopped*: no step down to a\n\
+thousandth of the given one converges, with place and advice. *Cut*: too many iterations. *Wrong* is everything else.\n\
+A run counts in every row whose extreme it has.\n\n\
+## Limits, and what to do about them\n\n\
+- **Crushed elements.** {soft} of the {inverted} runs that stop at an inverted element have the laws Saint Venant-Kirchhoff or 3E,\n\
+  which give way below a stretch near .58 and do not resist the collapse of matter: no step is short enough. Take NeoHookean or\n\
+  BlatzKo where a body is crushed.\n\
+- **Driven against driven** (*immovable*): where all unknowns of both sides are prescribed no force can hold them apart. The\n\
+  run stops where they meet. Drive a face instead of the whole body.\n\
+- **Rims.** A slave node that leaves its master over the rim is free, and one that comes and goes there with the iterations\n\
+  stops the run (*rim*). Make the master larger than the slave; sides that may be touched belong to it.\n\
+- **Long steps.** They converge, but the time integration makes up energy. Follow the warning, not the convergence.\n\
+- **Velocity level.** Overlaps are kept, from the start or from contacts that were not foreseen; `max_penetration` is the deepest\n\
+  of all nodes. Start without overlap, or use the position level.\n\
+- **Bonds without viscosity** snap where they soften faster than the body follows (*snap*). Give them b > 0 or the body inertia.\n\
+- **No supports.** Without inertia a body that nothing holds is refused; one that contacts hold together with some support runs, and\n\
+  stops (*adrift*) when the contacts let go.\n\
+- **Contact problems** that are not solved in the iterations allowed (2000 here, 20000 by default) cost most of the time of a\n\
+  hopeless run. Lower `solver.max_contact_iterations` to fail sooner.\n\
+- **Nearly incompressible** bodies (nu .4996) under friction: with seed 7 one of 660 runs (number 44) leaves 1.6e-8 of the largest\n\
+  force at a node, more than the audit's 1e-8 and the round-off that it allows, and counts as wrong there. Not yet explained.\n\
+- A scene cannot choose the method of its contact solve, so the map shows the one that the program takes.\n";

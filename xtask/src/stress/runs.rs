@@ -181,6 +181,8 @@ fn kind(error: &NscdError) -> &'static str {
         StepFailure::Linear { .. } => "linear solve",
         StepFailure::TooFast { .. } => "too fast",
         StepFailure::Snap { .. } => "snap",
+        StepFailure::Adrift { .. } => "adrift",
+        StepFailure::Passed { .. } => "passed through",
         StepFailure::Rim { .. } => "rim",
         StepFailure::Immovable { .. } => "immovable",
         StepFailure::NotFinite { .. } => "not finite",

@@ -451,7 +451,8 @@ impl Writer<'_> {
         };
         format!(
             "    damping: (mass: {:?}, stiffness: {:?}),\n    time: (end: {:?}, dt: {:?}, theta: {:?}, xi: {:?}, \
-             contact: {contact}, inertia: {inertia}),\n    mass: {},\n",
+             contact: {contact}, inertia: {inertia}),\n    mass: {},\n    \
+             solver: (max_contact_iterations: 2000),\n",
             mass / draw.units[2],
             self.time_of(stiffness),
             self.time_of(self.end()),
