@@ -180,8 +180,16 @@ impl Record {
                 .filter(|(other, _)| family(other) == wanted);
             alike.map(|(_, column)| column.largest).fold(0.0, f64::max)
         };
+        // What is zero but for round-off has no scale of its own.
+        let force = largest("force");
         match family(name).as_str() {
-            "moment" => largest("moment").max(1e-6 * self.size * largest("force")),
+            "moment" => largest("moment").max(1e-6 * self.size * force),
+            length if length.ends_with("gap") || length.ends_with("displacement") => {
+                largest(length).max(1e-6 * self.size)
+            }
+            at_node if at_node.contains("force") || at_node.contains("adhesion_") => {
+                largest(at_node).max(1e-6 * force)
+            }
             other => largest(other),
         }
     }
