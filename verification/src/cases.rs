@@ -8,6 +8,7 @@ pub mod first_light;
 pub mod free_body;
 pub mod hertz;
 pub mod hu2022;
+pub mod incompressible;
 pub mod indenters;
 pub mod mindlin;
 pub mod oblique;
@@ -39,6 +40,8 @@ pub fn all() -> Vec<Case> {
         hertz::ball(),
         indenters::cone(),
         indenters::punch(),
+        incompressible::cone(),
+        incompressible::punch(),
         mindlin::cylinder(),
         mindlin::sphere(),
         contact_patch::non_matching(),

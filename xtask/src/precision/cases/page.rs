@@ -69,10 +69,13 @@ fn section(text: &mut String, climbed: &Climbed<'_>) {
             ),
         };
     }
-    let exact = first
-        .found
-        .iter()
-        .map(|f| f.exact.map_or("-".to_owned(), |e| digits(e, 5)));
+    // Where the closed form differs from run to run the brackets say it all.
+    let same = |number: usize| {
+        let all = || climbed.rungs.iter().flatten();
+        let exact = all().map(|m| m.found.get(number).and_then(|f| f.exact));
+        exact.reduce(|a, b| if a == b { a } else { None }).flatten()
+    };
+    let exact = (0..first.found.len()).map(|k| same(k).map_or("-".to_owned(), |e| digits(e, 5)));
     let exact: Vec<String> = exact.collect();
     if first.found.iter().any(|f| f.exact.is_some()) {
         let _ = writeln!(text, "| closed form | | | | {} |", exact.join(" | "));
