@@ -26,7 +26,8 @@ pub fn tractions(ran: &Ran, state: &State) -> Vec<Traction> {
     let traction = |c: &nscd::ContactState| {
         let x = mesh.points[c.node as usize];
         let area = model.interfaces[0].area[c.slave_index];
-        Traction {
+        // Corners of quadratic triangles and the axis end of a quadratic edge have no share.
+        (area > 0.0).then(|| Traction {
             r: if mesh.dim == 2 {
                 x[0].abs()
             } else {
@@ -34,9 +35,9 @@ pub fn tractions(ran: &Ran, state: &State) -> Vec<Traction> {
             },
             pressure: c.force[2] / area,
             friction: c.force[0].hypot(c.force[1]) / area,
-        }
+        })
     };
-    pressed.map(traction).collect()
+    pressed.filter_map(traction).collect()
 }
 
 /// A distribution `peak sqrt(1 - r^2 / radius^2)`.

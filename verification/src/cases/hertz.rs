@@ -15,7 +15,7 @@ pub fn cylinder() -> Case {
                 largest pressure (from the line through the squares of the nodal pressures). refine = 2 has 20 elements on the half-width.",
         scene: "hertz-cylinder",
         sets: Vec::new(),
-        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[])],
+        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[]), quadratic()],
         measure: |ran| {
             let depth = |t: f64| 2.723_325e-6 * t;
             let exact = |t| hertz_cylinder_on_layer(E_STAR, RADIUS, 0.1, depth(t));
@@ -32,9 +32,18 @@ pub fn sphere() -> Case {
                 20 elements on the radius of contact.",
         scene: "hertz-sphere",
         sets: Vec::new(),
-        ladders: vec![Ladder::over_refine("mesh", &[1, 2, 4], &[]), domains()],
+        ladders: vec![
+            Ladder::over_refine("mesh", &[1, 2, 4], &[]),
+            quadratic(),
+            domains(),
+        ],
         measure: |ran| compare(ran, "force.contact.y", 1.0, &ball_at),
     }
+}
+
+/// The same numbers of cells with quadratic elements: `refine = 1` has the nodes of `refine = 2` with linear ones.
+fn quadratic() -> Ladder {
+    Ladder::over_refine("mesh, Quad9", &[1, 2], &["mesh.element=Quad9"])
 }
 
 /// Blocks of other sizes, as wide \[m\] and high \[m\] as this.

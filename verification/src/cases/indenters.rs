@@ -45,6 +45,13 @@ pub fn cone() -> Case {
         let size = (90.0_f64 - degrees) / 5.0;
         angle = rung(angle, format!("{degrees} degrees"), size, &cone_at(degrees));
     }
+    let mut mild = Ladder::new("angle, neo-Hookean");
+    for degrees in [80.0, 85.0, 87.5, 89.0] {
+        let mut sets = cone_at(degrees).to_vec();
+        sets.push(NEO_HOOKEAN.to_owned());
+        let size = (90.0_f64 - degrees) / 5.0;
+        mild = rung(mild, format!("{degrees} degrees"), size, &sets);
+    }
     Case {
         name: "cone",
         about: "A rigid cone of 85 degrees on an elastic half-space, nu = .495: P/d^2 over that of small strains, mean over the depths \
@@ -57,7 +64,7 @@ pub fn cone() -> Case {
             &["refine=2".to_owned()],
         ]
         .concat(),
-        ladders: vec![mesh, domain, angle.of_order(1.0)],
+        ladders: vec![mesh, domain, angle.of_order(1.0), mild],
         measure: |ran| {
             let (coefficient, spread) = cone_coefficient(ran)?;
             Ok(vec![
