@@ -7,7 +7,7 @@ mod partial_slip;
 
 use std::f64::consts::PI;
 
-pub use adhesion::{DMT, JKR, bond_ramp, maugis_dugdale, maugis_parameter};
+pub use adhesion::{DMT, JKR, bond_ramp, maugis_dugdale, maugis_parameter, peel_force};
 pub use dynamics::{
     BarImpact, Stop, bar_exchange, bar_on_clamped_bar, bar_on_wall, bounce_height,
     bounce_rest_time, free_bar_period, sliding_stop, trapezoidal_period,

@@ -33,6 +33,20 @@ fn the_pull_off_of_a_ball_goes_from_dmt_towards_jkr() {
 }
 
 #[test]
+#[ignore = "a minute"]
+fn a_strip_peels_at_the_energy_of_its_bonds() {
+    let error = |b: &str| {
+        let measured = adhesion::peel().run(&[b]).unwrap();
+        measured.error("force")
+    };
+    let (sticky, quick) = (error("adhesion.b=1.2"), error("adhesion.b=0.3"));
+    assert!(quick > 0.0 && quick < 1e-2, "{quick}");
+    // What viscosity adds is proportional to it: nothing is left without.
+    let limit = quick - (sticky - quick) / 3.0;
+    assert!(limit.abs() < 5e-3, "{sticky} {quick} {limit}");
+}
+
+#[test]
 fn a_row_of_bonds_follows_the_ramp_of_one() {
     let errors = [4e-3, 2e-3].map(|dt| {
         let measured = adhesion::plate_pull()

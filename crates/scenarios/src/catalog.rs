@@ -76,6 +76,10 @@ pub const SCENES: &[Entry] = &[
         text: include_str!("../scenes/debonding.ron"),
     },
     Entry {
+        name: "peel",
+        text: include_str!("../scenes/peel.ron"),
+    },
+    Entry {
         name: "pull-off",
         text: include_str!("../scenes/pull-off.ron"),
     },

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::closed_form::{DMT, bond_ramp, maugis_parameter};
+use crate::closed_form::{DMT, bond_ramp, maugis_parameter, peel_force};
 use crate::curve::{Curve, mean, peak};
 use crate::{Case, Found, Ladder, Ran};
 
@@ -68,6 +68,40 @@ fn largest_pull(ran: &Ran) -> Result<Vec<Found>, String> {
         against,
         Found::exact("pull-off against DMT", "pi w R", pull, DMT),
     ])
+}
+
+/// Steady peel of a strip at a right angle.
+pub fn peel() -> Case {
+    let viscous = |ladder: Ladder, b: &f64| {
+        let set = format!("adhesion.b={b}");
+        ladder.rung(format!("b = {b} N s/m"), *b, &[&set])
+    };
+    let viscosities = [2.4, 1.2, 0.6, 0.3].iter();
+    Case {
+        name: "peel",
+        about: "Steady force per width, mean over the last 4 mm of 40 mm of lift, against F (1 + F / (2 E' t)) = w. The viscosity of the \
+                bonds adds to it, about in proportion.",
+        scene: "peel",
+        sets: Vec::new(),
+        ladders: vec![
+            viscosities.fold(Ladder::new("viscosity"), viscous),
+            Ladder::new("mesh")
+                .rung("48 x 1", 1.0, &[])
+                .rung("96 x 2", 0.5, &["refine=2"]),
+        ],
+        measure: |ran| {
+            let force = ran.curve("t", "force.end.y")?;
+            let end = force.last().map_or(f64::NAN, |p| p.0);
+            let late: Curve = force.into_iter().filter(|p| p.0 >= end - 4.0).collect();
+            let steady = mean(&late).ok_or("the history is empty")?;
+            Ok(vec![Found::exact(
+                "force",
+                "N/m",
+                steady,
+                peel_force(32.0, 8e3),
+            )])
+        },
+    }
 }
 
 /// Pull of a rigid plate.

@@ -68,6 +68,12 @@ pub fn bond_ramp(de: f64, s: f64) -> f64 {
     weight(1.0) + (0..=panels).map(node).sum::<f64>() * h / (3.0 * de)
 }
 
+/// Steady force per width [N/m] that peels a strip of `stiffness` `E' t` [N/m] and bonds of energy `w` \[J/m^2\] off at a right
+/// angle: the end moves by `1 + F / (E' t)` per length, half of the stretch stays in the strip \[Kendall1975\].
+pub fn peel_force(w: f64, stiffness: f64) -> f64 {
+    2.0 * w / (1.0 + (1.0 + 2.0 * w / stiffness).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
