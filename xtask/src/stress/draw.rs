@@ -128,7 +128,7 @@ pub(super) enum Shape {
     Sphere(f64),
     /// Radius.
     Cylinder(f64),
-    /// Semi-apex angle [degrees].
+    /// Semi-apex angle \[degrees\].
     Cone(f64),
 }
 
@@ -190,7 +190,7 @@ pub(super) struct Draw {
     pub(super) gap: f64,
     pub(super) depth: f64,
     pub(super) slide: f64,
-    /// Of the driven face [rad].
+    /// Of the driven face \[rad\].
     pub(super) turn: f64,
     pub(super) flicker: bool,
     /// Pulls back after the press.
