@@ -6,15 +6,17 @@ mod draw;
 mod geometry;
 mod report;
 mod runs;
+mod subject;
 mod text;
 
 use std::path::{Path, PathBuf};
 
 use crate::{Outcome, root};
-use draw::{DIRECTIONS, Draw, draw};
+use draw::draw;
 use runs::{End, Found};
+use subject::{DIRECTIONS, Draw};
 
-pub(crate) use draw::Case;
+pub(crate) use subject::Case;
 
 /// Runs of the map in the docs.
 const RUNS: usize = 660;

@@ -163,27 +163,22 @@ const fn quadrilateral_16() -> [QuadraturePoint; 16] {
 const fn triangle_6() -> [QuadraturePoint; 6] {
     let side = [0.445_948_490_915_964_9, 0.091_576_213_509_770_74];
     let weight = [0.111_690_794_839_005_73, 0.054_975_871_827_660_93];
-    let mut rule = [ORIGIN; 6];
-    let mut q = 0;
-    while q < 6 {
-        let (orbit, corner) = (q / 3, q % 3);
-        rule[q].xi = [side[orbit], side[orbit], 0.0];
-        if corner < 2 {
-            rule[q].xi[corner] = 1.0 - 2.0 * side[orbit];
-        }
-        rule[q].weight = weight[orbit];
-        q += 1;
-    }
-    rule
+    two_orbits(side, weight)
 }
 
 /// The centroid and two orbits of three points: `(6 -+ sqrt 15)/21` from two sides, weights `(155 -+ sqrt 15)/2400`.
 const fn triangle_7() -> [QuadraturePoint; 7] {
     let side = [0.101_286_507_323_456_34, 0.470_142_064_105_115_1];
     let weight = [0.062_969_590_272_413_58, 0.066_197_076_394_253_1];
-    let mut rule = [ORIGIN; 7];
+    let mut rule: [QuadraturePoint; 7] = two_orbits(side, weight);
     rule[6].xi = [1.0 / 3.0, 1.0 / 3.0, 0.0];
     rule[6].weight = 9.0 / 80.0;
+    rule
+}
+
+/// Two orbits of three points at these distances from two sides; points beyond the sixth are left to the caller.
+const fn two_orbits<const N: usize>(side: [f64; 2], weight: [f64; 2]) -> [QuadraturePoint; N] {
+    let mut rule = [ORIGIN; N];
     let mut q = 0;
     while q < 6 {
         let (orbit, corner) = (q / 3, q % 3);

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::Made;
-use super::draw::{Extreme, Law};
 use super::runs::{End, Found};
+use super::subject::{Extreme, Law};
 
 /// Share of the energy made up by the time integration beyond which a run is warned of, as in its summary.
 const NOTABLE: f64 = 0.1;

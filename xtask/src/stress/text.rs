@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::draw::{Bond, Case, Draw, Hold, Kind, Law, Shape};
+use super::subject::{Bond, Case, Draw, Hold, Kind, Law, Shape};
 
 /// The scene as RON.
 pub(super) fn scene(draw: &Draw, title: &str) -> String {
