@@ -89,7 +89,7 @@ pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {
             title: "Mesh and von Mises stress under a cone of 60 degrees",
             pictures: vec![("fig03a.svg", start), ("fig03b.svg", end)],
             caption: format!(
-                "A part of the block, which has 20 radii of contact. The largest stress of an element is {} Pa, in the element at the tip. **Agrees:** it is at the tip. \
+                "A part of the block, which has 20 radii of contact. The largest stress of an element is {} Pa, on the axis a little below the tip. **Agrees:** it is at the tip. \
                  **Differs:** the paper has {} Pa. That is no number to be met: the solution has no length scale and its stress no bound at the \
                  tip, so that the value is that of the smallest element, which the paper does not state.",
                 digits(top, 4),
