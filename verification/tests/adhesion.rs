@@ -60,7 +60,7 @@ fn sticky_balls_jump_into_contact_and_out_of_it() {
         assert!(pull > maugis_dugdale(lambda) && pull < HALF_SPACE[k - 1].1);
         let force = ran.curve("t", "force.contact.y").unwrap();
         let largest = peak(&force).unwrap().1;
-        // Less than a sixth of the pull before the jump, more than three quarters behind it; nothing between lasts.
+        // On the way in the pull goes once from little to most of what it will be.
         let share = |f: f64| f / largest;
         let way_in: Vec<f64> = force
             .iter()

@@ -111,15 +111,16 @@ pub fn peel() -> Case {
     let viscosities = [2.4, 1.2, 0.6, 0.3].iter();
     Case {
         name: "peel",
-        about: "Steady force per width, mean over the last 4 mm of 40 mm of lift, against F (1 + F / (2 E' t)) = w. The viscosity of the \
+        about: "Steady force per width, mean over the last 4 mm of 20 mm of lift, against F (1 + F / (2 E' t)) = w. The viscosity of the \
                 bonds adds to it, about in proportion.",
         scene: "peel",
         sets: Vec::new(),
         ladders: vec![
             viscosities.fold(Ladder::new("viscosity"), viscous),
             Ladder::new("mesh")
-                .rung("48 x 1", 1.0, &[])
-                .rung("96 x 2", 0.5, &["refine=2"]),
+                .rung("40 x 1", 1.0, &[])
+                .rung("80 x 2", 0.5, &["refine=2"]),
+            Ladder::over_dt("step", &[0.1, 0.05], &[]),
         ],
         measure: |ran| {
             let force = ran.curve("t", "force.end.y")?;
@@ -130,7 +131,7 @@ pub fn peel() -> Case {
                 "force",
                 "N/m",
                 steady,
-                peel_force(32.0, 8e3),
+                peel_force(32.0, 4e3),
             )])
         },
     }
