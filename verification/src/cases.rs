@@ -47,6 +47,7 @@ pub fn all() -> Vec<Case> {
         contact_patch::non_matching(),
         adhesion::pull_off(),
         adhesion::pull_off_small(),
+        adhesion::pull_off_large(),
         adhesion::peel(),
         adhesion::plate_pull(),
     ]

@@ -7,6 +7,7 @@ pub mod case;
 pub mod cases;
 pub mod closed_form;
 pub mod curve;
+pub mod half_space;
 pub mod run;
 pub mod short;
 pub mod traction;

@@ -53,7 +53,7 @@ const FORMS: &[(&str, &[&str])] = &[
     ("mindlin-sphere", &mindlin::FIVE),
     ("oblique-impact", &oblique::COARSE),
     ("pull-off", &["time.dt=0.1"]),
-    ("peel", &["time.end=4"]),
+    ("peel", &["time.end=3"]),
     ("plate-pull", &["time.dt=0.01"]),
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];

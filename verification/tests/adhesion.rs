@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::adhesion::{self, HALF_SPACE, SMALL};
+use verification::cases::adhesion::{self, HALF_SPACE, LARGE, SMALL};
 use verification::closed_form::{DMT, JKR, maugis_dugdale};
+use verification::curve::peak;
+use verification::{Plan, compute};
 
 /// The pull-off force falls from DMT towards JKR, above Maugis's since the bonds' stress has a tail; at the small end it is
 /// within 1 % of -2 pi w R, and everywhere of an independent computation.
@@ -32,8 +34,54 @@ fn the_pull_off_of_a_ball_goes_from_dmt_towards_jkr() {
     }
 }
 
+/// At large Maugis parameters the ball jumps into contact and out of it. A little viscosity of the bonds makes branches of both, and
+/// hardly any pull.
 #[test]
-#[ignore = "a minute"]
+fn sticky_balls_jump_into_contact_and_out_of_it() {
+    let coarse = [
+        "mesh.x=(from: 0.0, pieces: [Cells(to: 0.45e-3, cells: 26), Cells(to: 0.85e-3, cells: 64), Growing(to: 22.0e-3, growth: 1.2)])",
+        "mesh.y=(from: 0.0, pieces: [Cells(to: -2.6e-5, cells: 4), Growing(to: -22.0e-3, growth: 1.4)])",
+        "C_n=1.3564e10",
+    ];
+    // Behind the largest pull the fine mesh takes long.
+    let fine = ["C_n=3.0519e10", "time.end=0.9"];
+    let runs: [(usize, &[&str]); 2] = [(4, &coarse), (5, &fine)];
+    for (k, sets) in runs {
+        let (lambda, exact) = HALF_SPACE[k];
+        let sets = LARGE.iter().chain(sets).copied();
+        let ran = compute(Plan::new("pull-off", "pull-off", sets)).unwrap();
+        let ran = ran.completed().unwrap();
+        let pull = (adhesion::pull_off_large().measure)(&ran).unwrap()[0].value;
+        println!(
+            "lambda = {lambda}: {pull} of {exact}, {:.1} s",
+            ran.summary.cpu_s
+        );
+        assert!((pull / exact - 1.0).abs() < 0.01, "{lambda}: {pull}");
+        assert!(pull > maugis_dugdale(lambda) && pull < HALF_SPACE[k - 1].1);
+        let force = ran.curve("t", "force.contact.y").unwrap();
+        let largest = peak(&force).unwrap().1;
+        // On the way in the pull goes once from little to most of what it will be.
+        let share = |f: f64| f / largest;
+        let way_in: Vec<f64> = force
+            .iter()
+            .filter(|p| p.0 <= 0.4)
+            .map(|p| share(p.1))
+            .collect();
+        let between = way_in
+            .windows(2)
+            .filter(|p| p[0] < 0.3 && p[1] > 0.3)
+            .count();
+        assert!(
+            way_in[1] < 0.1 && way_in[way_in.len() - 1] > 0.75 && between == 1,
+            "{way_in:?}"
+        );
+        if ran.summary.time > 1.0 {
+            assert!(share(force[force.len() - 1].1) < 0.1);
+        }
+    }
+}
+
+#[test]
 fn a_strip_peels_at_the_energy_of_its_bonds() {
     let error = |b: &str| {
         let measured = adhesion::peel().run(&[b]).unwrap();

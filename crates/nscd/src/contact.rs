@@ -22,6 +22,10 @@ use crate::trial::{StepFrame, Trial};
 /// Depth over the search distance that a contact on a rim may have although it is given up for the step \[-\].
 const RIM_DEPTH: f64 = 1e-6;
 
+/// What to try where bonds of a surface may catch or let go all at once.
+const SNAP_ADVICE: &str = "try smaller steps; where bonds catch or let go all at once there is no equilibrium on the way, but with some \
+                           viscosity b of the bonds or inertia of the bodies there is a motion";
+
 /// What the contact solve remembers from iteration to iteration and from step to step. Nothing
 /// here decides a result: forces are a warm start, scales only weigh an error.
 #[derive(Debug)]
@@ -355,6 +359,11 @@ impl LinearisedContact {
                 contacts: self.map.len(),
                 error: outcome.error_scale_free,
                 method: format!("{:?}", outcome.method),
+                advice: if self.bonds.is_empty() {
+                    "try smaller steps"
+                } else {
+                    SNAP_ADVICE
+                },
                 contact: describe(model, &self.map, worst),
             });
         }

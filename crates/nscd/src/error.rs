@@ -104,7 +104,7 @@ pub enum StepFailure {
     },
     /// The contact problem of an iteration was not solved.
     #[error(
-        "the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; try smaller steps"
+        "the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; {advice}"
     )]
     Contact {
         /// Contacts in the problem.
@@ -113,6 +113,8 @@ pub enum StepFailure {
         error: f64,
         /// Method that ended last.
         method: String,
+        /// What to try.
+        advice: &'static str,
         /// Worst contact.
         contact: String,
     },

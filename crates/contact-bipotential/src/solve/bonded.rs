@@ -23,6 +23,10 @@ use crate::truth::Truth;
 
 /// Sweeps before the first Newton step.
 const FEW: usize = 10;
+/// Sweeps between two tries of Newton's method at most.
+const LONGEST: usize = 500;
+/// Rounds of so many sweeps, at whose pace the rest of them would not suffice, before the problem is given up.
+const PATIENCE: usize = 2;
 /// Rounds of frozen intensities before a method gives up.
 const ROUNDS: usize = 200;
 /// Evaluations for the intensity of one contact: bisection alone would need 50.
@@ -98,19 +102,24 @@ fn run<const D: usize>(
     let truth = Truth::bonded(problem, bonds);
     let mut best = Iterate::new(&truth, r);
     let sweeper = Sweeper::<D>::bonded(problem, bonds, Kernel::Exact);
-    let (tolerance, budget) = (settings.tolerance, settings.max_iterations);
+    let (tolerance, mut left) = (settings.tolerance, settings.max_iterations);
     // Far from the solution bonds look broken that are not: Newton's method starts from a few sweeps.
-    for sweeps in [FEW, 10 * FEW, 50 * FEW, budget] {
-        if best.is_within(tolerance) {
-            break;
-        }
-        sweeper.run_mixed(&truth, &mut best, tolerance, sweeps.min(budget), &mut work);
+    let (mut round, mut hopeless) = (FEW, 0);
+    while left > 0 && hopeless < PATIENCE && !best.is_within(tolerance) {
+        let (before, sweeps) = (best.errors.worst(), round.min(left));
+        sweeper.run_mixed(&truth, &mut best, tolerance, sweeps, &mut work);
         r.copy_from_slice(&best.r);
         work.newton_steps += newton
             .attempt::<D>(problem, bonds, w, r, settings)
             .work
             .newton_steps;
         best.keep_better(&Iterate::new(&truth, r));
+        left -= sweeps;
+        let after = best.errors.worst();
+        let gain = (before / after).ln() * left as f64 / sweeps as f64;
+        let too_slow = round == LONGEST && gain < (after / tolerance).ln();
+        hopeless = if too_slow { hopeless + 1 } else { 0 };
+        round = (10 * round).min(LONGEST);
     }
     finish(&truth, r, best, settings, Method::Newton, work)
 }

@@ -93,6 +93,26 @@ fn bonds_hold_what_contact_alone_lets_go() {
 }
 
 #[test]
+fn sweeps_that_lead_nowhere_end_early() {
+    let problem = half_space(4, 0.3, 1e-2, 3e-3);
+    let bonds = bonds(&problem, Update::SecondOrder, 0.0, 3.0);
+    let settings = SolveSettings {
+        // Below rounding.
+        tolerance: 1e-18,
+        ..SolveSettings::default()
+    };
+    let mut r = Vec::new();
+    let outcome = solve_bonded(&problem, &bonds, &mut r, &settings);
+    assert!(!outcome.is_converged() && outcome.error_scale_free < 1e-12);
+    assert!(
+        outcome.work.sweeps >= FEW + 10 * FEW + PATIENCE * LONGEST
+            && outcome.work.sweeps < settings.max_iterations / 4,
+        "{:?}",
+        outcome.work
+    );
+}
+
+#[test]
 fn a_list_of_bonds_of_another_length_is_refused() {
     let problem = half_space(3, 0.3, 1e-3, 0.0);
     let bonds = bonds(&problem, Update::SecondOrder, 0.0, 0.1);
