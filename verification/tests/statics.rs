@@ -120,10 +120,10 @@ fn a_ball_slips_in_part_to_a_hundredth() {
 }
 
 #[test]
-#[ignore = "a minute"]
+#[ignore = "two and a half minutes"]
 fn a_ball_slips_in_part_to_a_hundredth_at_all_loads_where_the_ring_of_slip_has_elements() {
     assert_all_within(&loading(&[], 0.6), 1e-2, 1.1e-2);
-    assert_all_within(&loading(&mindlin::RIM, 0.55), 1e-2, 1e-2);
+    assert_all_within(&loading(&mindlin::RIM, 0.5), 1e-2, 1e-2);
 }
 
 /// Blocks with so many cells along an edge.

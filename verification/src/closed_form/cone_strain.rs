@@ -156,6 +156,8 @@ mod tests {
     use super::*;
     use hyperelastic::{ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff};
 
+    type Energy = Box<dyn Fn(&[f64; 6]) -> f64>;
+
     /// `C` of `F = I + s h`, in the order 11 22 33 12 13 23.
     fn stretch(h: &Gradient, s: f64) -> [f64; 6] {
         let f = |i: usize, j: usize| f64::from(u8::from(i == j)) + s * h[i][j];
@@ -167,7 +169,7 @@ mod tests {
     fn cubic_parts_are_those_of_the_laws() {
         let (shear, lambda) = (2.0, 3.0);
         let elastic = ElasticConstants::from_shear_bulk(shear, lambda + 2.0 * shear / 3.0).unwrap();
-        let laws: [(Box<dyn Fn(&[f64; 6]) -> f64>, Cubic); 2] = [
+        let laws: [(Energy, Cubic); 2] = [
             {
                 let law = SaintVenantKirchhoff::new(elastic).unwrap();
                 (
