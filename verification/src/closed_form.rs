@@ -1,6 +1,7 @@
 //! Closed forms, in SI units. `e_star` is `E / (1 - nu^2)`: an elastic body on a rigid one.
 
 mod adhesion;
+mod cone_strain;
 mod dynamics;
 mod oblique;
 mod partial_slip;
@@ -8,6 +9,9 @@ mod partial_slip;
 use std::f64::consts::PI;
 
 pub use adhesion::{DMT, JKR, bond_ramp, maugis_dugdale, maugis_parameter, peel_force};
+pub use cone_strain::{
+    Cubic, Gradient, cone_strain_slope, cubic_of_neo_hookean, cubic_of_saint_venant_kirchhoff,
+};
 pub use dynamics::{
     BarImpact, Stop, bar_exchange, bar_on_clamped_bar, bar_on_wall, bounce_height,
     bounce_rest_time, free_bar_period, sliding_stop, trapezoidal_period,

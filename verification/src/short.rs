@@ -20,6 +20,7 @@ const FORMS: &[(&str, &[&str])] = &[
     (
         "cone",
         &[
+            "refine=1",
             "semi_apex_angle=85.0",
             "translation=(0, [(0, 0), (1, -1.37428e-4)], 0)",
             "dt=0.1",

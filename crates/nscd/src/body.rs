@@ -3,8 +3,9 @@
 use contact_bipotential::CompliancePart;
 use fe_core::{ElementWorkspace, MassMatrix, Solid, SymmetricPattern};
 
+use crate::brace::Brace;
 use crate::error::{NscdError, StepFailure};
-use crate::linear::{Condensed, Factor, LowerPattern};
+use crate::linear::{Condensed, Factor, Indefinite, LowerPattern};
 use crate::ordering::{Graph, elimination_order};
 use crate::report::Counters;
 use crate::scheme::Weights;
@@ -21,6 +22,8 @@ const LAST_SOLVE: f64 = 1e-6;
 #[derive(Debug)]
 pub(crate) struct BodySystem {
     index: usize,
+    /// Unknowns a node, of which some may be prescribed.
+    dim: usize,
     /// Without mass supports alone do not hold the body: some rigid motion costs no force.
     pub(crate) floating: bool,
     /// Global dof of each equation.
@@ -35,6 +38,8 @@ pub(crate) struct BodySystem {
     /// Weights of the factor in use; `None` when there is none.
     factored: Option<Weights>,
     contraction: Option<f64>,
+    /// Springs in the factor in use; the matrix without them was not definite.
+    braces: Vec<Brace>,
     /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m], without what was added to make it definite:
     /// round-off does not grow with that.
     diagonals: Vec<[f64; 2]>,
@@ -87,6 +92,7 @@ impl BodySystem {
         let n = dofs.len();
         Ok(Self {
             index,
+            dim,
             floating: false,
             factor: Factor::new(lower)?,
             values: vec![0.0; pattern.row_indices().len()],
@@ -97,6 +103,7 @@ impl BodySystem {
             surface: None,
             factored: None,
             contraction: None,
+            braces: Vec::new(),
             diagonals: vec![[0.0; 2]; n],
             epoch: 0,
             forward: vec![0.0; n],
@@ -168,12 +175,14 @@ impl BodySystem {
     }
 
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
-    /// definite by adding to its diagonal, as little as needed in powers of ten, and counted.
+    /// definite by `braces`, those of other bodies are ignored, and if that does not suffice by adding to its diagonal, as
+    /// little as needed in powers of ten. It is counted.
     pub(crate) fn refactor(
         &mut self,
         work: &ElementWorkspace,
         parts: MatrixParts<'_>,
         weights: Weights,
+        braces: &[Brace],
         counters: &mut Counters,
     ) -> Result<(), StepFailure> {
         self.factored = None;
@@ -202,7 +211,7 @@ impl BodySystem {
         if self.floating {
             self.stiffen(FLOATING);
         }
-        self.factorize_shifted(counters)?;
+        self.factorize_shifted(braces, counters)?;
         self.factored = Some(weights);
         Ok(())
     }
@@ -216,39 +225,88 @@ impl BodySystem {
         }
     }
 
-    fn factorize_shifted(&mut self, counters: &mut Counters) -> Result<(), StepFailure> {
-        let Self {
-            pattern,
-            factor,
-            values,
-            ..
-        } = self;
-        let lower = LowerPattern {
-            pointers: pattern.column_pointers(),
-            rows: pattern.row_indices(),
+    /// Adds a part of each diagonal entry to itself: in a graded mesh, the more so around an axis, the largest is no measure for
+    /// the others.
+    fn stiffen_each(&mut self, part: f64) {
+        let least = f64::EPSILON * self.largest_diagonal();
+        for k in 0..self.dofs.len() {
+            let own = self.diagonals[k][0].abs().max(least);
+            self.values[self.pattern.column_pointers()[k]] += part * own;
+        }
+    }
+
+    /// Springs in the factor in use.
+    pub(crate) fn braces(&self) -> &[Brace] {
+        &self.braces
+    }
+
+    /// Puts those of the springs into the matrix that belong to the body.
+    fn brace(&mut self, braces: &[Brace]) {
+        let count = self.dofs.iter().map(|&d| d as usize + 1).max();
+        let mut equation = vec![usize::MAX; count.unwrap_or(0) + self.dim];
+        for (k, &d) in self.dofs.iter().enumerate() {
+            equation[d as usize] = k;
+        }
+        let (pointers, rows) = (self.pattern.column_pointers(), self.pattern.row_indices());
+        let known = |d: usize| equation.get(d).copied().filter(|&e| e != usize::MAX);
+        for brace in braces {
+            let mut brace = *brace;
+            let diagonals = &self.diagonals;
+            let diagonal = |d: usize| known(d).map_or(0.0, |e| diagonals[e][0]);
+            let values = &mut self.values;
+            brace.enter(self.dim, diagonal, |i, j, value| {
+                let (Some(i), Some(j)) = (known(i), known(j)) else {
+                    return;
+                };
+                let column = pointers[i.min(j)]..pointers[i.min(j) + 1];
+                if let Ok(k) = rows[column.clone()].binary_search(&i.max(j)) {
+                    values[column.start + k] += value;
+                }
+            });
+            self.braces.push(brace);
+        }
+    }
+
+    fn factorize_shifted(
+        &mut self,
+        braces: &[Brace],
+        counters: &mut Counters,
+    ) -> Result<(), StepFailure> {
+        self.braces.clear();
+        let Err(_) = self.factorize(counters) else {
+            return Ok(());
         };
-        let diagonal: Vec<usize> = lower.pointers[..lower.pointers.len() - 1].to_vec();
-        let scale = diagonal
-            .iter()
-            .map(|&k| values[k].abs())
-            .fold(0.0, f64::max);
+        counters.indefinite_tangents += 1;
+        if !braces.is_empty() {
+            self.brace(braces);
+            if self.factorize(counters).is_ok() {
+                return Ok(());
+            }
+        }
         let mut shift = 1e-4;
         loop {
-            counters.factorizations += 1;
-            let Err(bad) = factor.factorize(lower, values) else {
+            self.stiffen_each(shift);
+            let Err(bad) = self.factorize(counters) else {
                 return Ok(());
             };
-            counters.indefinite_tangents += u64::from(shift == 1e-4);
-            if shift > 10.0 {
+            if shift > 1.0 {
                 let node = self.dofs[bad.equation] as usize;
                 return Err(StepFailure::Indefinite {
                     body: self.index,
                     node,
                 });
             }
-            diagonal.iter().for_each(|&k| values[k] += shift * scale);
             shift *= 10.0;
         }
+    }
+
+    fn factorize(&mut self, counters: &mut Counters) -> Result<(), Indefinite> {
+        counters.factorizations += 1;
+        let lower = LowerPattern {
+            pointers: self.pattern.column_pointers(),
+            rows: self.pattern.row_indices(),
+        };
+        self.factor.factorize(lower, &self.values)
     }
 
     /// The compliance of the candidate surface, from the trailing block of the factor.

@@ -9,6 +9,7 @@
 
 mod body;
 mod bonds;
+mod brace;
 mod contact;
 mod energy;
 mod error;

@@ -118,9 +118,17 @@ struct Control {
     /// Current step as a fraction `2^-level` of the nominal one.
     level: u32,
     smallest: f64,
+    /// Accepted steps since the level last changed.
     successes: usize,
     growth_after: usize,
+    /// Accepted steps before the next growth: twice as many after each growth that failed soon.
+    patience: usize,
+    /// Whether the level last changed by growing.
+    grown: bool,
 }
+
+/// Patience never exceeds this multiple of its setting.
+const MOST_PATIENCE: usize = 16;
 
 impl Control {
     fn new(model: &Model, span: Span) -> Self {
@@ -137,6 +145,8 @@ impl Control {
             smallest: span.dt * model.settings.smallest_step,
             successes: 0,
             growth_after: model.settings.growth_after,
+            patience: model.settings.growth_after,
+            grown: false,
         }
     }
 
@@ -166,15 +176,30 @@ impl Control {
         {
             state.time = exact;
         }
+        self.grow();
+    }
+
+    fn grow(&mut self) {
         self.successes += 1;
-        if self.level > 0 && self.successes >= self.growth_after {
+        if self.successes < self.patience {
+            return;
+        }
+        if self.grown {
+            self.patience = self.growth_after;
+        }
+        self.grown = self.level > 0;
+        if self.grown {
             self.level -= 1;
             self.successes = 0;
         }
     }
 
     fn rejected(&mut self, time: f64, dt: f64, reason: &StepFailure) -> Result<(), NscdError> {
+        if self.grown && self.successes < self.patience {
+            self.patience = (2 * self.patience).min(MOST_PATIENCE * self.growth_after);
+        }
         self.successes = 0;
+        self.grown = false;
         while self.span.dt * 0.5_f64.powi(self.level as i32) >= 0.75 * dt {
             self.level += 1;
         }
@@ -186,5 +211,47 @@ impl Control {
             });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps of a control for which every step above `longest` fails: accepted and rejected ones.
+    fn counts(longest: f64, steps: usize) -> [usize; 2] {
+        let mut control = Control {
+            span: Span { end: 1e9, dt: 1.0 },
+            targets: vec![1e9],
+            level: 0,
+            smallest: 1e-3,
+            successes: 0,
+            growth_after: 2,
+            patience: 2,
+            grown: false,
+        };
+        let (mut t, mut made) = (0.0, [0, 0]);
+        while made[0] < steps {
+            let dt = control.next(t).unwrap();
+            if dt > longest {
+                control
+                    .rejected(t, dt, &StepFailure::Element("inverted".into()))
+                    .unwrap();
+                made[1] += 1;
+            } else {
+                t += dt;
+                control.grow();
+                made[0] += 1;
+            }
+        }
+        made
+    }
+
+    #[test]
+    fn a_step_that_cannot_grow_is_tried_less_and_less() {
+        assert_eq!(counts(1.0, 100), [100, 0]);
+        let [made, failed] = counts(0.3, 1000);
+        // Growth is tried after 2, 4, 8, 16 and then every 32 steps, and costs one failure each time.
+        assert_eq!(failed, 2 + 4 + (made - 30) / 32);
     }
 }

@@ -5,6 +5,7 @@ use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
 
 use crate::body::{BodySystem, MatrixParts};
 use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
+use crate::brace::braces;
 use crate::contact::{ContactMemory, LinearisedContact, cone_of};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
@@ -295,8 +296,18 @@ impl<'m> Stepper<'m> {
                 .as_ref()
                 .map(|w| (w, self.model.damping.stiffness)),
         };
+        let braces = match self.model.scheme.contact {
+            ContactLevel::Position => braces(trial, self.memory.cone),
+            ContactLevel::Velocity => Vec::new(),
+        };
         for (body, _) in self.bodies.iter_mut().zip(&stale).filter(|(_, s)| **s) {
-            body.refactor(&self.work, parts, frame.weights, &mut self.counters)?;
+            body.refactor(
+                &self.work,
+                parts,
+                frame.weights,
+                &braces,
+                &mut self.counters,
+            )?;
         }
         self.book(Phase::Factorization, start);
         Ok(())
@@ -349,6 +360,9 @@ impl<'m> Stepper<'m> {
             rhs.iter_mut()
                 .zip(&coupling)
                 .for_each(|(b, k)| *b -= frame.weights.stiffness * k);
+        }
+        for brace in self.bodies.iter().flat_map(BodySystem::braces) {
+            brace.load(&trial.map, &trial.x, &trial.r, &mut rhs);
         }
         rhs
     }

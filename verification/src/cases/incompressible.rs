@@ -20,7 +20,11 @@ pub fn cone() -> Case {
                 pressure that alternates from cell to cell, root mean squares. Sizes are 1 - 2 nu; the block is finite, which is an \
                 error that does not go.",
         scene: "cone",
-        sets: [&cone_at(85.0)[..], &["time.dt=0.05".to_owned()]].concat(),
+        sets: [
+            &cone_at(85.0)[..],
+            &["refine=1".to_owned(), "time.dt=0.05".to_owned()],
+        ]
+        .concat(),
         ladders: ladders(),
         measure: |ran| {
             measure(ran, |e_star| {

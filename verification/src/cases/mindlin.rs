@@ -1,10 +1,12 @@
 //! Cattaneo and Mindlin: two bodies of one material, pressed, then moved sideways to and fro.
 
 use crate::closed_form::{PartialSlip, under_ball, under_cylinder};
-use crate::traction::{INNER, ellipse, tractions};
-use crate::{Case, Found, Ladder, Ran};
+use crate::traction::{Ellipse, INNER, ellipse, tractions};
+use crate::{Case, Found, Ladder, Plan, Ran};
 
 use std::f64::consts::PI;
+
+use nscd::State;
 
 const E_STAR: f64 = 1e9;
 const MU: f64 = 0.5;
@@ -20,7 +22,7 @@ pub fn cylinder() -> Case {
         sets: Vec::new(),
         ladders: vec![
             Ladder::over_refine("mesh", &[1, 2, 3, 4], &[]),
-            amplitudes(&["7.0e-7", "8.5e-7", "1.15e-6"]),
+            amplitudes("load", &["7.0e-7", "8.5e-7", "1.15e-6"], &[]),
         ],
         measure: |ran| {
             let loads = Loads::of(ran, "force.contact.y", 1.0)?;
@@ -37,34 +39,43 @@ pub fn sphere() -> Case {
     Case {
         name: "mindlin-sphere",
         about: "Partial slip under a ball, half of it: radius of the part that sticks, energy lost in a cycle, radius of contact and largest \
-                pressure under the load that is found. The scene has 8 elements on the radius of contact.",
+                pressure under the load that is found. The scene has 8 elements on the radius of contact, the finest mesh 16 of that size where it slips.",
         scene: "mindlin-sphere",
         sets: Vec::new(),
         ladders: vec![
             Ladder::new("mesh")
                 .rung("5 on the radius", 1.6, &FIVE)
-                .rung("8 on the radius (the scene)", 1.0, &[]),
-            amplitudes(&["1.8e-7", "2.2e-7", "2.8e-7"]),
+                .rung("8 on the radius (the scene)", 1.0, &[])
+                .rung("16 at the rim", 0.5, &RIM),
+            amplitudes("load", &["1.8e-7", "2.2e-7", "2.8e-7"], &[]),
+            amplitudes("load, 16 at the rim", &["1.8e-7", "2.2e-7", "2.8e-7"], &RIM),
         ],
         measure: |ran| {
             let loads = Loads::of(ran, "force.contact.z", 2.0)?;
-            let radius = (0.75 * loads.normal / E_STAR).cbrt();
-            let exact = under_ball(0.25 * E_STAR, MU, loads.normal, radius, loads.q());
+            let (radius, exact) = ball(&loads);
             let pressure = 1.5 * loads.normal / (PI * radius * radius);
             compare(ran, 2.0, radius, pressure, &exact)
         },
     }
 }
 
+/// Radius of contact \[m\] and partial slip under a ball with these loads.
+fn ball(loads: &Loads) -> (f64, PartialSlip) {
+    let radius = (0.75 * loads.normal / E_STAR).cbrt();
+    let exact = under_ball(0.25 * E_STAR, MU, loads.normal, radius, loads.q());
+    (radius, exact)
+}
+
 /// The scene with other ways to the side and back \[m\].
-fn amplitudes(ways: &[&str]) -> Ladder {
+fn amplitudes(name: &str, ways: &[&str], mesh: &[&str]) -> Ladder {
     let with = |ladder: Ladder, way: &&str| {
         let set = format!(
             "top.motion.translation.0=[(1.0, 0.0), (2.0, {way}), (4.0, -{way}), (6.0, {way})]"
         );
-        ladder.rung(format!("{way} m to each side"), 1.0, &[set.as_str()])
+        let sets: Vec<&str> = mesh.iter().copied().chain([set.as_str()]).collect();
+        ladder.rung(format!("{way} m to each side"), 1.0, &sets)
     };
-    ways.iter().fold(Ladder::new("load"), with)
+    ways.iter().fold(Ladder::new(name), with)
 }
 
 /// The mesh of `mindlin-sphere` with 5 elements on the radius of contact.
@@ -77,7 +88,77 @@ pub const FIVE: [&str; 6] = [
     "high.mesh.z.pieces=[Cells(to: 0.6e-3, cells: 3), Growing(to: 0.01, growth: 1.9)]",
 ];
 
-/// Loads of the whole contact at the end \[N\], per metre in the plane.
+/// The mesh of `mindlin-sphere` with elements half as large from one half of the radius of contact to beyond it.
+pub const RIM: [&str; 6] = [
+    "low.mesh.x.pieces=[Cells(to: -1.125e-3, cells: 7, grading: 0.04), Cells(to: -0.5e-3, cells: 10), Cells(to: 0.5e-3, cells: 8), Cells(to: 1.125e-3, cells: 10), Cells(to: 0.01, cells: 7, grading: 25.0)]",
+    "high.mesh.x.pieces=[Cells(to: -1.125e-3, cells: 7, grading: 0.04), Cells(to: -0.5e-3, cells: 10), Cells(to: 0.5e-3, cells: 8), Cells(to: 1.125e-3, cells: 10), Cells(to: 0.01, cells: 7, grading: 25.0)]",
+    "low.mesh.y.pieces=[Cells(to: 0.5e-3, cells: 4), Cells(to: 1.125e-3, cells: 10), Growing(to: 0.01, growth: 1.8)]",
+    "high.mesh.y.pieces=[Cells(to: 0.5e-3, cells: 4), Cells(to: 1.125e-3, cells: 10), Growing(to: 0.01, growth: 1.8)]",
+    "low.mesh.z.pieces=[Cells(to: -0.5e-3, cells: 6), Growing(to: -0.01, growth: 1.8)]",
+    "high.mesh.z.pieces=[Cells(to: 0.5e-3, cells: 6), Growing(to: 0.01, growth: 1.8)]",
+];
+
+/// Load steps of [`first_loading`] at which the side load grows.
+const GROWING: std::ops::RangeInclusive<u32> = 2..=12;
+
+/// The first way to the side, in so many steps that the load is seen to grow from `q` = .44 to .82.
+pub fn first_loading(mesh: &[&str]) -> Plan {
+    let way = [
+        "top.motion.translation.0=[(1.0, 0.0), (2.0, 1.52e-7), (12.0, 3.42e-7)]",
+        "time.end=12.0",
+        "time.dt=1.0",
+    ];
+    let scene = "mindlin-sphere";
+    let times: Vec<f64> = GROWING.map(f64::from).collect();
+    Plan::new(scene, scene, mesh.iter().copied().chain(way)).keeping(&times)
+}
+
+/// A moment of a first loading, beside what it should be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moment {
+    /// Side load over that of full slip [-].
+    pub q: f64,
+    /// Radius of what sticks over radius of contact, relative error [-].
+    pub stick: f64,
+    /// Energy lost, relative error [-].
+    pub loss: f64,
+}
+
+/// The moments of a [`first_loading`]. It loses a quarter of what a cycle between `-T` and `T` loses: on the way back, and forth again,
+/// the same places slip twice as far under the same friction.
+///
+/// # Errors
+/// The run is no such loading or did not reach its end.
+pub fn moments(ran: &Ran) -> Result<Vec<Moment>, String> {
+    let lost = ran.curve("t", "dissipation.friction")?;
+    let (normal, sideways) = (
+        ran.curve("t", "force.contact.z")?,
+        ran.curve("t", "force.contact.x")?,
+    );
+    let at = |curve: &[(f64, f64)], time: f64| {
+        let row = curve.iter().find(|p| p.0 >= time - 1e-9);
+        row.map(|p| p.1)
+            .ok_or_else(|| format!("there is no time {time}"))
+    };
+    let moment = |(k, step): (usize, u32)| {
+        let time = f64::from(step);
+        let loads = Loads {
+            normal: -2.0 * at(&normal, time)?,
+            sideways: 2.0 * at(&sideways, time)?.abs(),
+        };
+        let (radius, exact) = ball(&loads);
+        let [contact, stick] = ellipses(ran, ran.snapshot(k)?, radius, &exact);
+        let loss = 4.0 * 2.0 * (at(&lost, time)? - at(&lost, 1.0)?);
+        Ok(Moment {
+            q: loads.q(),
+            stick: stick.radius / contact.radius / exact.stick - 1.0,
+            loss: loss / exact.loss - 1.0,
+        })
+    };
+    GROWING.enumerate().map(moment).collect()
+}
+
+/// Loads of the whole contact \[N\], per metre in the plane.
 struct Loads {
     normal: f64,
     sideways: f64,
@@ -96,6 +177,15 @@ impl Loads {
     }
 }
 
+/// Of the pressure, and of what sticks.
+fn ellipses(ran: &Ran, state: &State, radius: f64, exact: &PartialSlip) -> [Ellipse; 2] {
+    let nodes = tractions(ran, state);
+    let contact = ellipse(nodes.iter().map(|t| (t.r, t.pressure)), INNER * radius);
+    // Where it sticks, full slip and friction differ by an ellipse that ends where slip begins.
+    let spare = nodes.iter().map(|t| (t.r, MU * t.pressure - t.friction));
+    [contact, ellipse(spare, INNER * exact.stick * radius)]
+}
+
 fn compare(
     ran: &Ran,
     parts: f64,
@@ -103,11 +193,7 @@ fn compare(
     pressure: f64,
     exact: &PartialSlip,
 ) -> Result<Vec<Found>, String> {
-    let nodes = tractions(ran, &ran.last);
-    let contact = ellipse(nodes.iter().map(|t| (t.r, t.pressure)), INNER * radius);
-    // Where it sticks, full slip and friction differ by an ellipse that ends where slip begins.
-    let spare = nodes.iter().map(|t| (t.r, MU * t.pressure - t.friction));
-    let stick = ellipse(spare, INNER * exact.stick * radius);
+    let [contact, stick] = ellipses(ran, &ran.last, radius, exact);
     let friction = ran.curve("t", "dissipation.friction")?;
     let at = |time: f64| {
         let row = friction.iter().find(|p| p.0 >= time - 1e-9);

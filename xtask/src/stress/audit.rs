@@ -6,10 +6,10 @@ use nscd::{
     ContactLevel, ContactState, Inertia, Model, Observer, State, StepReport, Stepper, Totals,
 };
 
-use super::geometry::{deepest, deepest_on_the_way, positions};
+use super::geometry::{deepest, deepest_on_the_way, positions, warp};
 
 /// Newton corrections after which a run is cut.
-const MOST_ITERATIONS: u64 = 6_000;
+const MOST_ITERATIONS: u64 = 40_000;
 
 /// Largest open share of the energy audit \[-\].
 const ENERGY: f64 = 1e-6;
@@ -17,9 +17,8 @@ const ENERGY: f64 = 1e-6;
 const RESIDUAL: f64 = 1e-8;
 /// Largest error of the contact law that is not round-off \[-\].
 const LAW: f64 = 1e-7;
-/// Deepest penetration over the smallest edge of the mesh \[-\]; on curved facets in space, which are compared with flat ones.
+/// Deepest penetration over the smallest edge of the mesh \[-\].
 const DEPTH: f64 = 1e-5;
-const DEPTH_CURVED: f64 = 0.1;
 
 /// The worst of a run.
 #[derive(Clone, Copy, Debug, Default)]
@@ -301,12 +300,7 @@ impl<'a> Auditor<'a> {
         let model = self.model;
         let x = positions(model, &state.u);
         let (depth, node) = deepest(model, &x, state.time);
-        let curved = model.solid.dim() == 3
-            && model
-                .interfaces
-                .iter()
-                .any(|i| matches!(i.master, Master::Surface(_)));
-        let allowed = self.edge * if curved { DEPTH_CURVED } else { DEPTH };
+        let allowed = DEPTH * self.edge + warp(model, &x);
         let told = match model.scheme.contact {
             ContactLevel::Position => 0.0,
             ContactLevel::Velocity => report.penetration,

@@ -53,6 +53,23 @@ pub(super) fn deepest(model: &Model, x: &[Point], time: f64) -> (f64, u32) {
     worst
 }
 
+/// Farthest that a master's bilinear facet is from the two flat triangles that this file takes for it \[m\].
+pub(super) fn warp(model: &Model, x: &[Point]) -> f64 {
+    let surfaces = model.interfaces.iter().filter_map(|i| match &i.master {
+        Master::Surface(surface) => Some(surface),
+        Master::Obstacle(_) => None,
+    });
+    let facets = surfaces.flat_map(|surface| &surface.facets);
+    let twist = facets.map(|facet| match facet.nodes() {
+        &[a, b, c, d] => {
+            let [a, b, c, d] = [a, b, c, d].map(|n| x[n as usize]);
+            norm(sub(sub(a, b), sub(d, c))) / 4.0
+        }
+        _ => 0.0,
+    });
+    twist.fold(0.0, f64::max)
+}
+
 /// How far a node passed through a round or sharp obstacle on its straight way \[m\], seen from the obstacle.
 pub(super) fn deepest_on_the_way(
     model: &Model,
@@ -181,44 +198,57 @@ fn faces(dim: usize, cell: &[u32]) -> Vec<Vec<u32>> {
     sets.iter().map(face).collect()
 }
 
-/// Whether a point lies in an element with straight edges, cut into simplices.
+/// Whether a point lies in an element with straight edges, cut into simplices. Where a crushed element is no longer convex, a
+/// simplex turned inside out takes away what another one has too much.
 fn is_in_cell(dim: usize, cell: &[u32], x: &[Point], at: Point) -> bool {
-    let corner = |i: usize| x[cell[i] as usize];
-    match (dim, cell.len()) {
-        (2, 3) => in_triangle([0, 1, 2].map(corner), at),
-        (2, _) => [[0, 1, 2], [0, 2, 3]]
+    let corner = |i: &usize| x[cell[*i] as usize];
+    let triangles = |sets: &[[usize; 3]]| -> i32 {
+        let turns = sets
             .iter()
-            .any(|t| in_triangle(t.map(corner), at)),
-        (_, 4) => in_tetrahedron([0, 1, 2, 3].map(corner), at),
-        _ => [
+            .map(|t| in_triangle(t.each_ref().map(corner), at));
+        turns.sum()
+    };
+    let tetrahedra = |sets: &[[usize; 4]]| -> i32 {
+        let turns = sets
+            .iter()
+            .map(|t| in_tetrahedron(t.each_ref().map(corner), at));
+        turns.sum()
+    };
+    let turns = match (dim, cell.len()) {
+        (2, 3) => triangles(&[[0, 1, 2]]),
+        (2, _) => triangles(&[[0, 1, 2], [0, 2, 3]]),
+        (_, 4) => tetrahedra(&[[0, 1, 2, 3]]),
+        _ => tetrahedra(&[
             [0, 1, 2, 6],
             [0, 2, 3, 6],
             [0, 3, 7, 6],
             [0, 7, 4, 6],
             [0, 4, 5, 6],
             [0, 5, 1, 6],
-        ]
-        .iter()
-        .any(|t| in_tetrahedron(t.map(corner), at)),
-    }
+        ]),
+    };
+    turns != 0
 }
 
-fn in_triangle([a, b, c]: [Point; 3], x: Point) -> bool {
+/// One turn if all are positive, one turn the other way if all are negative.
+fn turn<const N: usize>(sides: [f64; N]) -> i32 {
+    i32::from(sides.iter().all(|s| *s > 0.0)) - i32::from(sides.iter().all(|s| *s < 0.0))
+}
+
+fn in_triangle([a, b, c]: [Point; 3], x: Point) -> i32 {
     let side = |p: Point, q: Point| cross(sub(q, p), sub(x, p))[2];
-    let s = [side(a, b), side(b, c), side(c, a)];
-    s.iter().all(|s| *s > 0.0) || s.iter().all(|s| *s < 0.0)
+    turn([side(a, b), side(b, c), side(c, a)])
 }
 
-fn in_tetrahedron([a, b, c, d]: [Point; 4], x: Point) -> bool {
+fn in_tetrahedron([a, b, c, d]: [Point; 4], x: Point) -> i32 {
     let volume =
         |p: Point, q: Point, r: Point, s: Point| dot(sub(s, p), cross(sub(q, p), sub(r, p)));
-    let s = [
+    turn([
         volume(x, b, c, d),
         volume(a, x, c, d),
         volume(a, b, x, d),
         volume(a, b, c, x),
-    ];
-    s.iter().all(|s| *s > 0.0) || s.iter().all(|s| *s < 0.0)
+    ])
 }
 
 fn to_face(nodes: &[u32], x: &[Point], at: Point) -> f64 {
@@ -272,8 +302,21 @@ mod tests {
         let t = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
         assert_eq!(to_triangle(t, [0.2, 0.2, 0.7]), 0.7);
         assert_eq!(to_triangle(t, [-3.0, 0.0, 4.0]), 5.0);
-        assert!(in_triangle(t, [0.2, 0.2, 0.0]) && !in_triangle(t, [0.8, 0.8, 0.0]));
+        assert_eq!(in_triangle(t, [0.2, 0.2, 0.0]), 1);
+        assert_eq!(in_triangle(t, [0.8, 0.8, 0.0]), 0);
         let t = [t[0], t[1], t[2], [0.0, 0.0, 1.0]];
-        assert!(in_tetrahedron(t, [0.1, 0.1, 0.1]) && !in_tetrahedron(t, [0.5, 0.5, 0.5]));
+        assert_eq!(in_tetrahedron(t, [0.1, 0.1, 0.1]).abs(), 1);
+        assert_eq!(in_tetrahedron(t, [0.5, 0.5, 0.5]), 0);
+        let dart = [
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.5, 0.5, 0.0],
+            [0.0, 2.0, 0.0],
+        ];
+        for k in 0..4 {
+            let cell = [0, 1, 2, 3].map(|i| (i + k) % 4);
+            assert!(is_in_cell(2, &cell, &dart, [0.2, 0.2, 0.0]));
+            assert!(!is_in_cell(2, &cell, &dart, [0.7, 0.7, 0.0]));
+        }
     }
 }

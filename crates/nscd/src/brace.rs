@@ -1,0 +1,170 @@
+//! Closed contacts as springs, lent to a tangent that is not definite without them.
+//!
+//! A pressed surface is held by what it touches; its tangent alone may well be indefinite, because the stress under it would make
+//! it buckle if nothing were there. A spring along the normal of a closed contact changes nothing of the solution: there the
+//! normal motion is known beforehand, it closes what gap is left.
+
+use contact_bipotential::{Contact, ContactMap};
+
+use crate::trial::Trial;
+
+/// Stiffness of a spring over the largest diagonal entry of its node [-].
+const STIFFNESS: f64 = 10.0;
+
+/// A spring along the normal of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Brace {
+    /// Interface and position among its slaves.
+    key: (usize, usize),
+    /// Slave node.
+    node: u32,
+    normal: [f64; 3],
+    /// Zero until it is in a matrix [N/m].
+    stiffness: f64,
+}
+
+/// The pressed contacts with rigid masters. A deformable master would couple the matrices of two bodies.
+pub(crate) fn braces(trial: &Trial, cone: usize) -> Vec<Brace> {
+    let forces = trial.r.chunks_exact(cone);
+    let pressed = trial.map.contacts.iter().zip(forces);
+    let pressed = pressed.filter(|(c, r)| r[cone - 1] > 0.0 && c.stencil.nodes().len() == 1);
+    let brace = |(c, _): (&Contact, &[f64])| Brace {
+        key: (c.interface, c.slave_index),
+        node: c.slave,
+        normal: c.normal(),
+        stiffness: 0.0,
+    };
+    pressed.map(brace).collect()
+}
+
+impl Brace {
+    /// Adds the spring to a matrix: `diagonal(i)` is its entry of dof `i`, zero where that is no unknown, and
+    /// `add(i, j, value)` adds to one with `i >= j` among unknowns.
+    pub(crate) fn enter(
+        &mut self,
+        dim: usize,
+        diagonal: impl Fn(usize) -> f64,
+        mut add: impl FnMut(usize, usize, f64),
+    ) {
+        let first = dim * self.node as usize;
+        let largest = (first..first + dim).fold(0.0_f64, |m, i| m.max(diagonal(i).abs()));
+        self.stiffness = STIFFNESS * largest;
+        for i in 0..dim {
+            for j in 0..=i {
+                let value = self.stiffness * self.normal[i] * self.normal[j];
+                add(first + i, first + j, value);
+            }
+        }
+    }
+
+    /// What the spring does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no force.
+    pub(crate) fn load(&self, map: &ContactMap, x: &[f64], r: &[f64], rhs: &mut [f64]) {
+        let found = |c: &Contact| (c.interface, c.slave_index);
+        let Ok(k) = map.contacts.binary_search_by_key(&self.key, found) else {
+            return;
+        };
+        let (dim, normal) = (map.dim(), (k + 1) * map.cone().dim() - 1);
+        if r[normal] > 0.0 {
+            for i in 0..dim {
+                rhs[dim * self.node as usize + i] -= self.stiffness * x[normal] * self.normal[i];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use contact_bipotential::{Cone, Stencil};
+
+    /// Node 1 of a mesh of two in the plane, pressed along a slanted normal.
+    fn pressed(gap: f64) -> (ContactMap, [f64; 2]) {
+        let (s, c) = 0.4_f64.sin_cos();
+        let contact = Contact {
+            interface: 0,
+            slave: 1,
+            slave_index: 3,
+            stencil: Stencil::rigid(1),
+            frame: [[0.0, 0.0, 1.0], [c, -s, 0.0], [s, c, 0.0]],
+            gap,
+            facet: None,
+            obstacle_motion: [0.0; 3],
+        };
+        (
+            ContactMap::new(vec![contact], 2, Cone::Frictionless),
+            [s, c],
+        )
+    }
+
+    fn solve(a: [[f64; 2]; 2], b: [f64; 2]) -> [f64; 2] {
+        let det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+        [
+            (b[0] * a[1][1] - b[1] * a[0][1]) / det,
+            (b[1] * a[0][0] - b[0] * a[1][0]) / det,
+        ]
+    }
+
+    #[test]
+    fn a_spring_makes_the_matrix_definite_and_leaves_the_solution() {
+        let gap = 0.03;
+        let (map, n) = pressed(gap);
+        // Indefinite, but not along the surface.
+        let tangent = [[1.0, -2.0], [-2.0, -0.5]];
+        let mut matrix = tangent;
+        let mut brace = Brace {
+            key: (0, 3),
+            node: 1,
+            normal: map.contacts[0].normal(),
+            stiffness: 0.0,
+        };
+        brace.enter(
+            2,
+            |d| tangent[d - 2][d - 2],
+            |i, j, value| {
+                matrix[i - 2][j - 2] += value;
+                if i != j {
+                    matrix[j - 2][i - 2] += value;
+                }
+            },
+        );
+        let det = |a: [[f64; 2]; 2]| a[0][0] * a[1][1] - a[0][1] * a[1][0];
+        assert!(det(tangent) < 0.0 && det(matrix) > 0.0 && matrix[0][0] > 0.0);
+        let load = [0.7, -0.2];
+        let mut rhs = [0.0, 0.0, load[0], load[1]];
+        brace.load(&map, &[gap], &[5.0], &mut rhs);
+        // Correction and force with n . du = -gap, with and without the spring.
+        let constrained = |a: [[f64; 2]; 2], b: [f64; 2]| {
+            let (free, unit) = (solve(a, b), solve(a, n));
+            let along = |x: [f64; 2]| n[0] * x[0] + n[1] * x[1];
+            let force = (-gap - along(free)) / along(unit);
+            [free[0] + force * unit[0], free[1] + force * unit[1], force]
+        };
+        let (with, without) = (
+            constrained(matrix, [rhs[2], rhs[3]]),
+            constrained(tangent, load),
+        );
+        for (a, b) in with.iter().zip(without) {
+            assert!((a - b).abs() < 1e-12, "{with:?} {without:?}");
+        }
+    }
+
+    #[test]
+    fn a_contact_without_force_has_no_spring_in_the_load() {
+        let (map, _) = pressed(0.1);
+        let brace = Brace {
+            key: (0, 3),
+            node: 1,
+            normal: map.contacts[0].normal(),
+            stiffness: 1.0,
+        };
+        let mut rhs = [0.0; 4];
+        brace.load(&map, &[0.1], &[0.0], &mut rhs);
+        brace.load(
+            &ContactMap::new(Vec::new(), 2, Cone::Frictionless),
+            &[],
+            &[],
+            &mut rhs,
+        );
+        assert_eq!(rhs, [0.0; 4]);
+    }
+}
