@@ -4,12 +4,15 @@
 //! is `2 / (9 pi)` then. Bonds act across any gap. Equilibria follow one another along the mean opening of the surfaces, which
 //! grows where force and travel turn back.
 
+mod elliptic;
+
 use std::f64::consts::PI;
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use crate::curve::{Curve, peak};
+use elliptic::disc;
 
 /// Work of separation in these units \[-\].
 const ENERGY: f64 = 2.0 / (9.0 * PI);
@@ -47,34 +50,6 @@ pub fn recoverable(strength: f64, gap: f64) -> (f64, f64) {
 pub fn pull_off(lambda: f64, rings: u32, bonds: Bonds) -> Result<f64, String> {
     let strength = 0.5 * lambda * (16.0 * PI * ENERGY / 9.0).cbrt();
     HalfSpace::new(rings, strength, bonds).largest_pull()
-}
-
-/// Displacement at the radius `r` by a unit traction on a disc of radius `c`, `E* = 1`.
-fn disc(r: f64, c: f64) -> f64 {
-    if r <= c {
-        let (_, e) = elliptic(r / c);
-        return 4.0 * c / PI * e;
-    }
-    let (k, e) = elliptic(c / r);
-    4.0 * r / PI * (e - (1.0 - (c / r).powi(2)) * k)
-}
-
-/// Complete elliptic integrals of the first and the second kind of the modulus `k` \[-\], 0 <= k < 1, by the arithmetic-geometric
-/// mean; at `k = 1` the second only, the first being infinite.
-fn elliptic(modulus: f64) -> (f64, f64) {
-    if modulus == 1.0 {
-        return (f64::INFINITY, 1.0);
-    }
-    let (mut a, mut b) = (1.0, (1.0 - modulus * modulus).sqrt());
-    let (mut sum, mut power) = (0.5 * modulus * modulus, 0.5);
-    while (a - b).abs() > 1e-15 * a {
-        let c = 0.5 * (a - b);
-        (a, b) = (0.5 * (a + b), (a * b).sqrt());
-        power *= 2.0;
-        sum += power * c * c;
-    }
-    let first = 0.5 * PI / a;
-    (first, first * (1.0 - sum))
 }
 
 struct HalfSpace {
@@ -247,78 +222,4 @@ fn extended(before: &Point, x: &Point, stride: f64) -> Point {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cases::adhesion::HALF_SPACE;
-    use crate::closed_form::{DMT, JKR, maugis_dugdale};
-    use approx::assert_relative_eq;
-
-    #[test]
-    fn elliptic_integrals_take_their_closed_values() {
-        assert_relative_eq!(
-            elliptic(0.5_f64.sqrt()).0,
-            1.854_074_677_301_371_9,
-            epsilon = 1e-14
-        );
-        assert_eq!(elliptic(0.0), (0.5 * PI, 0.5 * PI));
-        for k in [0.1_f64, 0.5, 0.9, 0.999] {
-            let ((k1, e1), (k2, e2)) = (elliptic(k), elliptic((1.0 - k * k).sqrt()));
-            assert_relative_eq!(e1 * k2 + e2 * k1 - k1 * k2, 0.5 * PI, epsilon = 1e-12);
-        }
-    }
-
-    /// Stress that stays until the bond breaks, but for a slope that Newton's method needs.
-    fn constant(strength: f64, gap: f64) -> (f64, f64) {
-        let (length, share) = (ENERGY / strength, 0.25);
-        let slope = -strength / (2.0 * share * length);
-        match gap / length - 1.0 {
-            near if near < -share => (strength, 0.0),
-            far if far > share => (0.0, 0.0),
-            _ => (slope * (gap - (1.0 + share) * length), slope),
-        }
-    }
-
-    #[test]
-    fn bonds_of_constant_stress_give_the_force_of_maugis() {
-        for (lambda, rings) in [(0.1, 80), (0.3, 120), (1.0, 160), (2.0, 240), (3.0, 300)] {
-            let (pull, exact) = (
-                pull_off(lambda, rings, constant).unwrap(),
-                maugis_dugdale(lambda),
-            );
-            println!("lambda = {lambda}, {rings} rings: {pull} of {exact}");
-            assert_relative_eq!(pull, exact, max_relative = 3e-3);
-        }
-    }
-
-    #[test]
-    fn long_bonds_of_the_program_give_the_force_of_dmt() {
-        let pull = pull_off(0.04, 40, recoverable).unwrap();
-        println!("lambda = .04: {pull}");
-        assert_relative_eq!(pull, DMT, max_relative = 3e-3);
-    }
-
-    #[test]
-    fn the_force_converges_over_the_rings() {
-        for lambda in [1.0, 3.0] {
-            let pulls = [100, 200, 400].map(|n| pull_off(lambda, n, recoverable).unwrap());
-            println!("lambda = {lambda}: {pulls:?}");
-            let [coarse, fine] = [0, 1].map(|k| (pulls[k + 1] - pulls[k]).abs());
-            assert!(fine < 0.5 * coarse && fine < 4e-3 * pulls[2], "{pulls:?}");
-        }
-    }
-
-    /// The reference of the case, in the digits that it is given with.
-    #[test]
-    fn the_table_is_what_the_rings_say() {
-        let rings = [100, 200, 200, 200, 400, 400];
-        for ((lambda, told), rings) in HALF_SPACE.into_iter().zip(rings) {
-            let pull = pull_off(lambda, rings, recoverable).unwrap();
-            println!("lambda = {lambda}, {rings} rings: {pull:.4}");
-            assert!((pull - told).abs() < 1e-3, "{lambda}: {pull} {told}");
-            assert!(pull > maugis_dugdale(lambda) && pull < DMT);
-        }
-        // What is above the force of JKR falls with the parameter.
-        let above = [3, 5].map(|k: usize| HALF_SPACE[k].0 * (HALF_SPACE[k].1 - JKR));
-        assert_relative_eq!(above[0], above[1], max_relative = 0.02);
-    }
-}
+mod tests;
