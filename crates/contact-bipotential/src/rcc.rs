@@ -227,7 +227,12 @@ impl BondStep {
             }
             Update::EnergyConsistent => {
                 let factor = 0.25 * self.area * (start * start + beta * beta);
-                let back = 1.0 + 1.0 / self.kept.max(f64::MIN_POSITIVE);
+                // Without anything kept the start has no separation either, and no stiffness that it would load.
+                let back = if self.kept > 0.0 {
+                    1.0 + 1.0 / self.kept
+                } else {
+                    0.0
+                };
                 let shift = [back * u[0], back * u[1], self.start.gap];
                 (c.map(|c| factor * c), shift)
             }

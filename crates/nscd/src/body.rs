@@ -43,6 +43,8 @@ pub(crate) struct BodySystem {
     /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m], without what was added to make it definite:
     /// round-off does not grow with that.
     diagonals: Vec<[f64; 2]>,
+    /// Least that the stiffness part was in any matrix so far [N/m].
+    softest: Vec<f64>,
     epoch: u64,
     forward: Vec<f64>,
     rhs: Vec<f64>,
@@ -105,6 +107,7 @@ impl BodySystem {
             contraction: None,
             braces: Vec::new(),
             diagonals: vec![[0.0; 2]; n],
+            softest: vec![f64::INFINITY; n],
             epoch: 0,
             forward: vec![0.0; n],
             rhs: vec![0.0; n],
@@ -151,6 +154,11 @@ impl BodySystem {
     /// Estimated seconds of one forward and backward substitution.
     pub(crate) fn solve_cost(&self) -> f64 {
         self.factor.fill() as f64 * 2.5e-9 + self.values.len() as f64 * 1e-9
+    }
+
+    /// Least stiffness part of each diagonal entry so far [N/m], infinite before the first factorization.
+    pub(crate) fn softest(&self) -> &[f64] {
+        &self.softest
     }
 
     /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m].
@@ -205,6 +213,9 @@ impl BodySystem {
         let mass = weights.mass + weights.damping * parts.mass_damping;
         if mass != 0.0 {
             self.pattern.add_mass(parts.mass, mass, &mut self.values);
+        }
+        for (softest, now) in self.softest.iter_mut().zip(&elastic) {
+            *softest = softest.min(now.abs());
         }
         let both = self.diagonal().into_iter().zip(elastic);
         self.diagonals = both.map(|(whole, elastic)| [whole, elastic]).collect();

@@ -10,6 +10,9 @@ use crate::trial::{StepFrame, Trial};
 
 /// Round-off of a sum of the size of its terms, with room for the number of terms.
 const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+/// How many times the largest force in play an element may resist a strain of size one, before its matrix is thought to come from an
+/// iterate in which it was almost crushed.
+const RIGID: f64 = 1e3;
 
 /// Iterations without progress after which a residual counts as round-off, and how far above the
 /// allowed one it may lie then.
@@ -152,7 +155,7 @@ impl Monitor {
         .fold(0.0, f64::max);
         let base = settings.newton_tolerance * scale;
         let unknown = if factored > 0.0 { 0.0 } else { stiffness };
-        let (residual, dof) = self.residual(stepper, trial, base, unknown, travel)?;
+        let (residual, dof) = self.residual(stepper, trial, [base, scale], unknown, travel)?;
         let blur = ROUND_OFF * (self.extent + travel) / settings.contact_tolerance;
         let law = stepper
             .memory
@@ -205,7 +208,7 @@ impl Monitor {
     }
 
     /// Largest residual and its dof; the contraction of every body goes to the body. `base` is what is allowed where
-    /// round-off is no matter \[N\], `unknown` the stiffness before the first factorization [N/m], `travel` the size of the displacements \[m\].
+    /// round-off is no matter and `scale` the largest force in play \[N\], `unknown` the stiffness before the first factorization [N/m], `travel` the size of the displacements \[m\].
     ///
     /// The bound is one for each dof: on a graded mesh the round-off of the largest elements would hide all that
     /// happens among the smallest.
@@ -213,7 +216,7 @@ impl Monitor {
         &mut self,
         stepper: &mut Stepper<'_>,
         trial: &Trial,
-        base: f64,
+        [base, scale]: [f64; 2],
         unknown: f64,
         travel: f64,
     ) -> Result<(f64, u32), StepFailure> {
@@ -224,10 +227,14 @@ impl Monitor {
             .bodies
             .iter()
             .map(|body| {
-                let around = |(d, [whole, elastic]): (&u32, &[f64; 2])| {
-                    ROUND_OFF * ((whole + unknown) * travel + elastic * sizes[*d as usize / dim])
+                // A matrix from an iterate with an almost crushed element is no measure for the one that is judged.
+                let around = |((d, [whole, elastic]), softest): ((&u32, &[f64; 2]), &f64)| {
+                    let size = sizes[*d as usize / dim];
+                    let likely = elastic.min(softest.max(RIGID * scale / size));
+                    ROUND_OFF * ((whole - elastic + likely + unknown) * travel + likely * size)
                 };
-                body.dofs.iter().zip(body.diagonals()).map(around).collect()
+                let diagonals = body.dofs.iter().zip(body.diagonals());
+                diagonals.zip(body.softest()).map(around).collect()
             })
             .collect();
         let least = floors.iter().flatten().fold(f64::MAX, |m, f| m.min(*f));

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use nscd::{Clock, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
+use nscd::{Clock, Inertia, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
 use thiserror::Error;
 
 use crate::build::{Built, build};
@@ -199,14 +199,28 @@ fn rejection(r: &nscd::Rejection) -> String {
 /// Share of the energy beyond which the integration error deserves a word.
 const NOTABLE_ERROR: f64 = 0.1;
 
-fn warnings(energy: &EnergySummary, largest: f64, lost_bonds: u64) -> Vec<String> {
+fn warnings(
+    energy: &EnergySummary,
+    largest: f64,
+    inertia: Inertia,
+    lost_bonds: u64,
+) -> Vec<String> {
     let mut warnings = Vec::new();
     let share = energy.integration_share(largest);
+    // Not a number is no small share.
+    if energy.unexplained().is_nan() {
+        warnings.push("an energy is not a number: do not believe this run".to_owned());
+    }
     if share > NOTABLE_ERROR {
-        warnings.push(format!(
-            "the time integration made up {:.0} % of the energy: take smaller steps before you believe the numbers",
-            100.0 * share
-        ));
+        let part = 100.0 * share;
+        warnings.push(match inertia {
+            Inertia::Dynamic => format!(
+                "the time integration made up {part:.0} % of the energy: take smaller steps before you believe the numbers"
+            ),
+            Inertia::QuasiStatic => format!(
+                "the works over the steps are off by {part:.0} % of the energy, each being the force at the end of its step times the way:                  of first order in the step, while forces and displacements without friction and bonds do not depend on it"
+            ),
+        });
     }
     if lost_bonds > 0 {
         warnings.push(format!(
@@ -252,7 +266,12 @@ pub fn summarise(
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
         rejections: totals.rejections.iter().take(100).map(rejection).collect(),
-        warnings: warnings(&energy, totals.largest_energy, counters.lost_bonds),
+        warnings: warnings(
+            &energy,
+            totals.largest_energy,
+            stepper.model().scheme.inertia,
+            counters.lost_bonds,
+        ),
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

@@ -45,6 +45,10 @@ pub(super) fn draw(seed: u64, index: usize) -> Draw {
         push(&mut draw, extreme, &mut dice);
     }
     reconcile(&mut draw);
+    // The audit knows the shape of rigid masters only, where faces are curved.
+    draw.quadratic = !draw.round && !draw.case.has_second_body() && dice.chance(0.3);
+    let linear_simplices = draw.simplex && !draw.round && !draw.quadratic;
+    draw.projected = dice.chance(0.3) && !linear_simplices;
     draw
 }
 
@@ -65,6 +69,8 @@ fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
         kind,
         round: dice.chance(0.4),
         simplex: dice.chance(0.3),
+        quadratic: false,
+        projected: false,
         cells: [dice.count(1, most), dice.count(1, most)],
         width: dice.within(0.5, 1.5),
         height: dice.within(0.5, 1.0),

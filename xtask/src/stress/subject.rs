@@ -161,6 +161,10 @@ pub(super) struct Draw {
     pub(super) kind: Kind,
     pub(super) round: bool,
     pub(super) simplex: bool,
+    /// The first body has elements of the second degree.
+    pub(super) quadratic: bool,
+    /// The first body has the projected dilatation.
+    pub(super) projected: bool,
     /// Across and along the vertical.
     pub(super) cells: [usize; 2],
     pub(super) width: f64,

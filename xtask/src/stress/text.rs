@@ -120,7 +120,7 @@ impl Writer<'_> {
         let [n, m] = cells;
         match self.draw.kind {
             Kind::Space => {
-                let element = if self.draw.simplex { "Tet4" } else { "Hex8" };
+                let element = self.element(["Hex8", "Tet4", "Hex27", "Tet10"]);
                 format!(
                     "Box(min: ({:?}, {:?}, {low:?}), max: ({half:?}, {half:?}, {high:?}), cells: ({n}, {n}, {m}), \
                      grading: (1.0, 1.0, {grading:?}), element: {element})",
@@ -133,13 +133,17 @@ impl Writer<'_> {
                 } else {
                     -half
                 };
-                let element = if self.draw.simplex { "Tri3" } else { "Quad4" };
+                let element = self.element(["Quad4", "Tri3", "Quad9", "Tri6"]);
                 format!(
                     "Rectangle(min: ({left:?}, {low:?}), max: ({half:?}, {high:?}), cells: ({n}, {m}), \
                      grading: (1.0, {grading:?}), element: {element})"
                 )
             }
         }
+    }
+
+    fn element(&self, kinds: [&'static str; 4]) -> &'static str {
+        kinds[2 * usize::from(self.draw.quadratic) + usize::from(self.draw.simplex)]
     }
 
     /// Mesh, contact set and far set of the first body.
@@ -212,8 +216,13 @@ impl Writer<'_> {
         } else {
             String::new()
         };
+        let dilatation = if draw.projected {
+            ", dilatation: Projected"
+        } else {
+            ""
+        };
         let mut text = format!(
-            "    bodies: {{\n        \"first\": (mesh: {}, material: \"first\"{velocity}),\n",
+            "    bodies: {{\n        \"first\": (mesh: {}, material: \"first\"{velocity}{dilatation}),\n",
             self.first().0
         );
         if draw.case.has_second_body() {

@@ -184,6 +184,21 @@ fn a_parted_broken_bond_forgets_and_an_ageing_one_relaxes() {
 }
 
 #[test]
+fn a_bond_that_never_formed_takes_any_slip() {
+    let law = Adhesion {
+        healing: Healing::Irreversible,
+        reference: Reference::Ageing,
+        update: Update::EnergyConsistent,
+        ..law()
+    };
+    let step = BondStep::new(&law, 1.0, 1e-3, bond(0.0, 0.0, [0.0; 2]), 0.0);
+    let slip = [45.0, -1e9, 0.0];
+    let energy = step.energy(&slip);
+    assert_eq!([energy.work, energy.stored, energy.dissipated], [0.0; 3]);
+    assert_eq!(step.at(&slip).force.map(f64::abs), [0.0; 3]);
+}
+
+#[test]
 fn parameters_out_of_bounds_are_refused_with_the_bound() {
     let bad = [
         Adhesion {
