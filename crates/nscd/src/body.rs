@@ -296,11 +296,16 @@ impl BodySystem {
         }
         let mut shift = 1e-4;
         loop {
-            self.stiffen_each(shift);
+            // Under a contact small elements buckle first, and what the largest one needs would stall them.
+            if braces.is_empty() {
+                self.stiffen(shift);
+            } else {
+                self.stiffen_each(shift);
+            }
             let Err(bad) = self.factorize(counters) else {
                 return Ok(());
             };
-            if shift > 1.0 {
+            if shift > 10.0 {
                 let node = self.dofs[bad.equation] as usize;
                 return Err(StepFailure::Indefinite {
                     body: self.index,

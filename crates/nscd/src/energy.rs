@@ -172,6 +172,14 @@ fn contact_terms(
     cone: usize,
     terms: &mut EnergyTerms,
 ) {
+    let mean: Vec<f64> = frame
+        .now
+        .v
+        .iter()
+        .zip(&trial.v)
+        .map(|(a, b)| 0.5 * (a + b))
+        .collect();
+    let velocity = relative_velocity(frame, &trial.map, &mean);
     for (k, c) in trial.map.contacts.iter().enumerate() {
         let r = in_frame(&trial.r[cone * k..cone * (k + 1)]);
         let dx = in_frame(&moved[cone * k..cone * (k + 1)]);
@@ -180,7 +188,12 @@ fn contact_terms(
         terms.load_work += dot(&global_force(&contacts[k]), &c.obstacle_motion);
         terms.friction -= (r[0] - bond[0]) * slip[0] + (r[1] - bond[1]) * slip[1];
         match frame.model.scheme.contact {
-            ContactLevel::Velocity => terms.impact -= r[2] * dx[2],
+            ContactLevel::Velocity => {
+                // An impulse works on the mean of the velocities before and after it, whatever way the scheme takes.
+                let way = frame.dt * velocity[cone * (k + 1) - 1];
+                terms.impact -= r[2] * way;
+                terms.gap_error += r[2] * (way - dx[2]);
+            }
             ContactLevel::Position => {
                 let before = state_before(frame.now, (c.interface, c.slave_index));
                 let closing = before.map_or(c.gap - dx[2], |b| b.gap) - c.gap;

@@ -18,8 +18,8 @@ pub(super) struct Issue {
     pub(super) message: String,
 }
 
-/// More nodes than this do not fit the numbering of unknowns.
-const MAX_NODES: usize = 1_000_000_000;
+/// More nodes than this are a slip in `cells` or `refine`: their matrix fits no memory.
+const MAX_NODES: usize = 20_000_000;
 /// More steps than this are a slip in `dt` or `end`.
 const MAX_STEPS: f64 = 1e9;
 
