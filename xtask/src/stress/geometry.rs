@@ -315,8 +315,8 @@ mod tests {
         ];
         for k in 0..4 {
             let cell = [0, 1, 2, 3].map(|i| (i + k) % 4);
-            assert!(is_in_cell(2, &cell, &dart, [0.2, 0.2, 0.0]));
-            assert!(!is_in_cell(2, &cell, &dart, [0.7, 0.7, 0.0]));
+            assert!(is_in_cell(2, &cell, &dart, [0.2, 0.1, 0.0]));
+            assert!(!is_in_cell(2, &cell, &dart, [0.75, 0.7, 0.0]));
         }
     }
 }
