@@ -218,7 +218,7 @@ fn warnings(
                 "the time integration made up {part:.0} % of the energy: take smaller steps before you believe the numbers"
             ),
             Inertia::QuasiStatic => format!(
-                "the works over the steps are off by {part:.0} % of the energy, each being the force at the end of its step times the way:                  of first order in the step, while forces and displacements without friction and bonds do not depend on it"
+                "the works over the steps are off by {part:.0} % of the energy, each being the force at the end of its step times the way: of first order in the step, while forces and displacements without friction and bonds do not depend on it"
             ),
         });
     }
