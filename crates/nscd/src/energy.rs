@@ -172,14 +172,10 @@ fn contact_terms(
     cone: usize,
     terms: &mut EnergyTerms,
 ) {
-    let mean: Vec<f64> = frame
-        .now
-        .v
-        .iter()
-        .zip(&trial.v)
-        .map(|(a, b)| 0.5 * (a + b))
-        .collect();
-    let velocity = relative_velocity(frame, &trial.map, &mean);
+    let velocity = match frame.model.scheme.contact {
+        ContactLevel::Velocity => mean_velocity(frame, trial),
+        ContactLevel::Position => Vec::new(),
+    };
     for (k, c) in trial.map.contacts.iter().enumerate() {
         let r = in_frame(&trial.r[cone * k..cone * (k + 1)]);
         let dx = in_frame(&moved[cone * k..cone * (k + 1)]);
@@ -205,6 +201,13 @@ fn contact_terms(
             }
         }
     }
+}
+
+/// Mean of the relative velocities before and after the step, in the frames of the contacts \[m/s\].
+fn mean_velocity(frame: &StepFrame<'_>, trial: &Trial) -> Vec<f64> {
+    let ends = frame.now.v.iter().zip(&trial.v);
+    let mean: Vec<f64> = ends.map(|(a, b)| 0.5 * (a + b)).collect();
+    relative_velocity(frame, &trial.map, &mean)
 }
 
 /// How far a contact closed since the start that its bond remembers \[m\].
