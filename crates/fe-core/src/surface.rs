@@ -1,6 +1,7 @@
 //! Surfaces: facets with their nodes, areas, normals and neighbours.
 
 mod shares;
+mod winding;
 
 use crate::error::FeError;
 use crate::mesh::{Facet, Mesh};

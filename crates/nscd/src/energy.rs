@@ -4,6 +4,7 @@ use contact_bipotential::local::local_axes;
 
 use crate::bonds::{adhesive_energy, carry_on};
 use crate::law::{in_frame, relative_displacement, relative_velocity, state_before};
+use crate::model::point;
 use crate::monitor::Check;
 use crate::report::{EnergyTerms, Resultant, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
@@ -12,20 +13,15 @@ use crate::stepper::Stepper;
 use crate::trial::{StepFrame, Trial};
 
 impl Stepper<'_> {
-    /// Turns a converged iterate into the next state and its report.
+    /// Turns a converged iterate into the next state and its report. `unforeseen` is the deepest penetration of all nodes \[m\].
     pub(crate) fn accept(
         &mut self,
         frame: &StepFrame<'_>,
-        mut trial: Trial,
+        trial: Trial,
         check: &Check,
+        unforeseen: f64,
     ) -> (State, StepReport) {
         let model = frame.model;
-        let unforeseen = match model.scheme.contact {
-            ContactLevel::Velocity if !model.interfaces.is_empty() => {
-                self.end_gaps(frame, &mut trial)
-            }
-            _ => 0.0,
-        };
         let support_force: Vec<f64> = (0..trial.u.len())
             .map(|i| {
                 if self.fixed[i] {
@@ -104,7 +100,7 @@ impl Stepper<'_> {
                 if let Some(sum) = sums.get_mut(owner[dof]) {
                     let mut f = [0.0; 3];
                     f[c] = force[dof];
-                    sum.add(f, point(positions, node, dim));
+                    sum.add(f, point(positions, dim, node as u32));
                 }
             }
         }
@@ -124,12 +120,6 @@ impl Resultant {
             self.moment[i] += m[i];
         }
     }
-}
-
-fn point(positions: &[f64], node: usize, dim: usize) -> [f64; 3] {
-    let mut at = [0.0; 3];
-    at[..dim].copy_from_slice(&positions[dim * node..dim * (node + 1)]);
-    at
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -298,7 +288,7 @@ fn interface_resultants(
 ) -> Vec<Resultant> {
     let mut sums = vec![Resultant::default(); count];
     for c in contacts {
-        sums[c.interface].add(global_force(c), point(positions, c.node as usize, dim));
+        sums[c.interface].add(global_force(c), point(positions, dim, c.node));
     }
     sums
 }

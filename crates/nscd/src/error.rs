@@ -33,6 +33,22 @@ pub enum NscdError {
         /// First node of the body.
         node: usize,
     },
+    /// A slave node that starts inside the body of its master, where no contact holds it.
+    #[error(
+        "node {node} of interface \"{interface}\" starts {depth:e} m inside the body of its master, and no contact is found for \
+         it within the search distance of {reach:e} m; start the bodies apart, set a larger search_distance, or add the faces \
+         that it came through to the master"
+    )]
+    Buried {
+        /// The node.
+        node: u32,
+        /// Name of the interface.
+        interface: String,
+        /// Depth under the boundary of the body \[m\].
+        depth: f64,
+        /// Reach of the search \[m\].
+        reach: f64,
+    },
     /// Velocity-level contact without velocities.
     #[error(
         "velocity-level contact needs inertia; use position-level contact for a quasi-static run"
@@ -195,6 +211,19 @@ pub enum StepFailure {
         travel: f64,
         /// Reach of the search \[m\].
         reach: f64,
+    },
+    /// A slave node lies under its master and the search does not see it.
+    #[error(
+        "node {node} of interface \"{interface}\" lies {depth:e} m inside the body of its master and its contact is lost: deeper \
+         than the contact search reaches, round the rim or in a fold; try smaller steps, position-level contact or a larger search_distance"
+    )]
+    Lost {
+        /// The node.
+        node: u32,
+        /// Name of the interface.
+        interface: String,
+        /// Depth under the boundary of the body \[m\].
+        depth: f64,
     },
     /// A bond softens faster than anything can follow: more than one end of the step satisfies the law.
     #[error(

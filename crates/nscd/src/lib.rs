@@ -10,6 +10,7 @@
 mod body;
 mod bonds;
 mod brace;
+mod buried;
 mod contact;
 mod energy;
 mod error;
@@ -30,6 +31,7 @@ mod state;
 mod stepper;
 mod swept;
 mod trial;
+mod unsupported;
 
 pub use error::{NscdError, StepFailure};
 pub use march::{Observer, Span, Totals, march};

@@ -153,3 +153,9 @@ impl Model {
         fixed
     }
 }
+
+/// The place of a node in a flat array of `dim` components a node; the third is 0 in the plane.
+pub(crate) fn point(x: &[f64], dim: usize, node: u32) -> [f64; 3] {
+    let at = &x[dim * node as usize..dim * (node as usize + 1)];
+    std::array::from_fn(|c| at.get(c).copied().unwrap_or(0.0))
+}

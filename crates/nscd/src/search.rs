@@ -2,9 +2,12 @@
 
 use contact_bipotential::{Contact, ContactMap, Interface, Master, Obstacle, Shape};
 
+use crate::buried::refuse_lost;
 use crate::contact::filtered;
 use crate::error::StepFailure;
+use crate::model::point;
 use crate::report::Phase;
+use crate::scheme::ContactLevel;
 use crate::stepper::Stepper;
 use crate::swept::Swept;
 use crate::trial::{StepFrame, Trial};
@@ -41,10 +44,23 @@ impl Stepper<'_> {
         interfaces.map(|i| i.search_distance).fold(0.0, f64::max)
     }
 
-    /// Gaps at the end of a step at the velocity level, where the contacts keep their predicted frames. Returns the deepest
+    /// Gaps at the end of a step: at the velocity level the contacts keep their predicted frames. Returns the deepest
     /// penetration of any slave node \[m\], of those too that no contact was predicted for.
-    pub(crate) fn end_gaps(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) -> f64 {
+    pub(crate) fn settle_gaps(
+        &mut self,
+        frame: &StepFrame<'_>,
+        trial: &mut Trial,
+    ) -> Result<f64, StepFailure> {
+        let model = self.model;
+        if model.interfaces.is_empty() {
+            return Ok(0.0);
+        }
+        if model.scheme.contact == ContactLevel::Position {
+            refuse_lost(model, &self.hulls, &trial.u, &trial.map.contacts)?;
+            return Ok(0.0);
+        }
         let end = self.detect(frame, &trial.u);
+        refuse_lost(model, &self.hulls, &trial.u, &end.contacts)?;
         for c in &mut trial.map.contacts {
             let key = (c.interface, c.slave_index);
             let found = end
@@ -54,7 +70,7 @@ impl Stepper<'_> {
                 c.gap = end.contacts[k].gap;
             }
         }
-        end.contacts.iter().map(|c| -c.gap).fold(0.0, f64::max)
+        Ok(end.contacts.iter().map(|c| -c.gap).fold(0.0, f64::max))
     }
 
     /// A slave that crosses more than the reach of the search in one step could pass through its
@@ -116,13 +132,9 @@ fn refuse_passing(
     }
     let placed = obstacle.over_step(frame.now.time, frame.end());
     let motion = obstacle.motion();
-    let point = |x: &[f64], node: u32| -> [f64; 3] {
-        let at = &x[dim * node as usize..dim * (node as usize + 1)];
-        std::array::from_fn(|c| at.get(c).copied().unwrap_or(0.0))
-    };
     for &node in &interface.slave {
-        let from = motion.pull_back(point(start, node), frame.now.time);
-        let (from, to) = (motion.position(from, frame.end()), point(end, node));
+        let from = motion.pull_back(point(start, dim, node), frame.now.time);
+        let (from, to) = (motion.position(from, frame.end()), point(end, dim, node));
         let (a, b) = (placed.closest(from, 0.0), placed.closest(to, 0.0));
         let turn: f64 = (0..3).map(|c| a.normal[c] * b.normal[c]).sum();
         let inside = |k: i32| {

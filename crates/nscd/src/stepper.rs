@@ -6,6 +6,7 @@ use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
 use crate::body::{BodySystem, MatrixParts};
 use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
 use crate::brace::braces;
+use crate::buried::{Hull, refuse_overlap};
 use crate::contact::{ContactMemory, LinearisedContact, cone_of};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
@@ -18,6 +19,7 @@ use crate::report::{Clock, Counters, Phase, Phases, StepReport};
 use crate::scheme::{ContactLevel, Inertia};
 use crate::state::State;
 use crate::trial::{StepFrame, Trial, damping_force};
+use crate::unsupported::refuse_unsupported;
 
 /// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
 /// leaves the state as it was.
@@ -26,6 +28,7 @@ pub struct Stepper<'m> {
     pub(crate) bodies: Vec<BodySystem>,
     pub(crate) fixed: Vec<bool>,
     pub(crate) detector: Detector,
+    pub(crate) hulls: Vec<Hull>,
     pub(crate) memory: ContactMemory,
     work: ElementWorkspace,
     initial_stiffness: Option<ElementWorkspace>,
@@ -54,6 +57,9 @@ impl<'m> Stepper<'m> {
         };
         refuse_unsupported(model, &fixed)?;
         refuse_velocity_level(model)?;
+        let mut detector = detector(model)?;
+        let hulls = Hull::of(model)?;
+        refuse_overlap(model, &hulls, &mut detector)?;
         let dim = model.solid.dim();
         let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
         let all = model.solid.bodies();
@@ -78,7 +84,8 @@ impl<'m> Stepper<'m> {
         Ok(Self {
             bodies,
             fixed,
-            detector: detector(model)?,
+            detector,
+            hulls,
             memory: ContactMemory::new(model),
             work,
             initial_stiffness,
@@ -150,7 +157,8 @@ impl<'m> Stepper<'m> {
                 self.refuse_tunnelling(&frame, &trial)?;
                 self.memory.refuse_unsettled(&frame, &trial)?;
                 self.memory.refuse_snap(&frame, &trial)?;
-                return Ok(self.accept(&frame, trial, &check));
+                let unforeseen = self.settle_gaps(&frame, &mut trial)?;
+                return Ok(self.accept(&frame, trial, &check, unforeseen));
             }
             if check.iteration == self.model.settings.newton_iterations {
                 return Err(self.no_equilibrium(&frame, &trial, &check));
@@ -452,27 +460,6 @@ fn detector(model: &Model) -> Result<Detector, NscdError> {
         Symmetry::Axisymmetric => detector.axisymmetric(&reference),
         _ => detector,
     })
-}
-
-/// Without mass, a body that nothing holds has no equilibrium: neither supports nor, where it can touch something, contacts
-/// together with some support.
-fn refuse_unsupported(model: &Model, fixed: &[bool]) -> Result<(), NscdError> {
-    if model.scheme.inertia == Inertia::Dynamic {
-        return Ok(());
-    }
-    let dim = model.solid.dim();
-    let candidate = model.candidates();
-    let free = |n: u32| (0..dim).all(|c| !fixed[dim * n as usize + c]);
-    let unheld = |body: &&Vec<u32>| {
-        let lonely = body.iter().all(|&n| !candidate[n as usize]);
-        body.iter().all(|&n| free(n)) || lonely && is_floating(model, body, fixed)
-    };
-    match model.solid.bodies().iter().find(unheld) {
-        Some(body) => Err(NscdError::Unsupported {
-            node: body[0] as usize,
-        }),
-        None => Ok(()),
-    }
 }
 
 fn inverted(error: FeError) -> StepFailure {

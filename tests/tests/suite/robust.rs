@@ -1,6 +1,7 @@
 //! Scenes at the edge of what the program takes, most of them found by the stress runs.
 
-use nscd::{NscdError, State, StepFailure};
+use nscd::{NoClock, NscdError, State, StepFailure, Stepper};
+use scenarios::build::build;
 
 use crate::common::{run, scene_text, try_run};
 
@@ -185,4 +186,106 @@ fn contact_alone_may_hold_a_quasi_static_body() {
         panic!("{:?}", lost.end)
     };
     assert!(matches!(failure, StepFailure::Adrift { .. }), "{failure}");
+}
+
+/// An overlap deeper than the search is refused before the first step, with the node; a node that only lies on a side of the
+/// other body, or above it, is not taken for one.
+#[test]
+fn an_overlap_that_the_search_does_not_see_is_refused() {
+    let pair = |space: bool, shift: [f64; 2]| {
+        let [x, y] = shift;
+        let [a, b] = if space {
+            let block = |x: f64, y: f64, w: f64, n: usize| {
+                format!(
+                    "Box(min: ({x:?}, {y:?}, 0.0), max: ({:?}, {:?}, 1.0), cells: ({n}, 2, 2))",
+                    x + w,
+                    y + 1.0
+                )
+            };
+            [block(x, y, 1.0, 2), block(-1.0, -1.0, 3.0, 5)]
+        } else {
+            let block = |x: f64, y: f64, w: f64, n: usize| {
+                format!(
+                    "Rectangle(min: ({x:?}, {y:?}), max: ({:?}, {:?}), cells: ({n}, 2))",
+                    x + w,
+                    y + 1.0
+                )
+            };
+            [block(x, y, 1.0, 2), block(-1.0, -1.0, 3.0, 5)]
+        };
+        let components = if space { "xyz" } else { "xy" };
+        let text = format!(
+            r#"(
+    title: "overlap",
+    materials: {{"soft": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)}},
+    bodies: {{"first": (mesh: {a}, material: "soft"), "second": (mesh: {b}, material: "soft")}},
+    motions: {{"held": (nodes: "second.y_min", components: "{components}"), "top": (nodes: "first.y_max", components: "{components}")}},
+    interfaces: {{"contact": (slave: "first.y_min", master: Facets("second.y_max"), search_distance: Some(0.2))}},
+    time: (end: 1.0, dt: 0.5, inertia: QuasiStatic),
+)"#
+        );
+        let built = build(&scene_text(&text, &[])).unwrap();
+        Stepper::new(&built.model, Box::new(NoClock)).map(|_| ())
+    };
+    for space in [false, true] {
+        for fine in [
+            [0.0, 0.05],
+            [0.0, 0.0],
+            [0.0, -0.15],
+            [0.0, 5.0],
+            [2.0, -0.5],
+            [2.0, -1.0],
+        ] {
+            let end = pair(space, fine);
+            assert!(end.is_ok(), "{space} {fine:?} {end:?}");
+        }
+        for (deep, node) in [([0.0, -0.25], 0), ([0.0, -0.6], 0), ([1.75, -0.5], 0)] {
+            let end = pair(space, deep);
+            let Err(error @ NscdError::Buried { node: found, .. }) = &end else {
+                panic!("{space} {deep:?} {end:?}")
+            };
+            assert!(space || *found == node, "{error}");
+            assert!(
+                error.to_string().contains("search distance of 2e-1 m"),
+                "{error}"
+            );
+        }
+    }
+}
+
+/// Gravity that pulls two blocks through each other at the velocity level, which keeps overlaps: a corner that slips in round the
+/// rim and comes to lie under its master is noticed.
+#[test]
+fn a_contact_that_is_lost_inside_its_master_stops_the_run() {
+    let text = r#"(
+    title: "lost",
+    symmetry: Some(Axisymmetric),
+    materials: {"soft": (law: NeoHookean(E: 1.1e6, nu: 0.308), density: 1000.0)},
+    bodies: {
+        "first": (mesh: Rectangle(min: (0.0, 1.54e-4), max: (0.0075, 0.0098), cells: (4, 5)), material: "soft"),
+        "second": (mesh: Rectangle(min: (0.0, -0.0097), max: (0.0075, 0.0), cells: (4, 5)), material: "soft"),
+    },
+    motions: {
+        "axis": (nodes: "first.x_min", components: "x"),
+        "drive": (nodes: "first.y_max", components: "xy", motion: Move(translation: (0.0, [(0.0, 0.0), (4.8e-4, -0.00157)], 0.0))),
+        "bottom": (nodes: "second.y_min", components: "xy"),
+        "second-axis": (nodes: "second.x_min", components: "x"),
+    },
+    loads: {"gravity": Gravity((0.0, 140540.0, 0.0))},
+    interfaces: {"contact": (slave: "first.y_min", master: Facets("second.y_max"), mu: 0.2)},
+    time: (end: 1.2e-3, dt: 6.0e-5, contact: Velocity),
+    mass: Lumped,
+)"#;
+    let run = try_run(&scene_text(text, &[]));
+    let Err(NscdError::Stopped { failure, .. }) = run.end else {
+        panic!("{:?}", run.end)
+    };
+    assert!(
+        matches!(failure, StepFailure::Lost { node: 4, .. }),
+        "{failure}"
+    );
+    assert!(
+        failure.to_string().contains("position-level contact"),
+        "{failure}"
+    );
 }

@@ -42,7 +42,10 @@ pub(super) fn largest_von_mises(run: &Ran, state: &State) -> f64 {
 
 /// A number with `digits` that count, as text.
 pub(crate) fn digits(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
+    if value.is_nan() {
+        return "-".to_owned();
+    }
+    if value == 0.0 || value.is_infinite() {
         return format!("{value}");
     }
     let magnitude = value.abs().log10().floor() as i32;

@@ -185,6 +185,7 @@ fn kind(error: &NscdError) -> &'static str {
         StepFailure::Passed { .. } => "passed through",
         StepFailure::Rim { .. } => "rim",
         StepFailure::Immovable { .. } => "immovable",
+        StepFailure::Lost { .. } => "contact lost",
         StepFailure::NotFinite { .. } => "not finite",
         _ => "other",
     }

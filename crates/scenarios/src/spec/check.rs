@@ -22,6 +22,8 @@ pub(super) struct Issue {
 const MAX_NODES: usize = 20_000_000;
 /// More steps than this are a slip in `dt` or `end`.
 const MAX_STEPS: f64 = 1e9;
+/// A larger ratio of the sizes of two cells, or its inverse, is a slip, and cells vanish in round-off.
+const MAX_GRADING: f64 = 1e9;
 
 /// All that is wrong with the values of a scene, in the order of the checks.
 pub(super) fn check(scene: &Scene) -> Vec<Issue> {
@@ -61,7 +63,19 @@ impl Checker<'_> {
         self.require(
             value.is_finite() && value > 0.0,
             path,
-            format!("must be greater than 0 [{unit}]"),
+            format!("must be greater than 0 [{unit}], and finite"),
+        );
+    }
+
+    /// Size of the last cell over that of the first.
+    fn grading(&mut self, value: f64, path: &str) {
+        self.require(
+            (1.0 / MAX_GRADING..=MAX_GRADING).contains(&value),
+            path,
+            format!(
+                "must lie between {:e} and {MAX_GRADING:e} [-]",
+                1.0 / MAX_GRADING
+            ),
         );
     }
 
@@ -69,7 +83,7 @@ impl Checker<'_> {
         self.require(
             value.is_finite() && value >= 0.0,
             path,
-            format!("must be 0 or more [{unit}]"),
+            format!("must be 0 or more [{unit}], and finite"),
         );
     }
 

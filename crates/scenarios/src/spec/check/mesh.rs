@@ -77,7 +77,7 @@ impl Checker<'_> {
                 for (i, least) in [3, 1].into_iter().enumerate() {
                     self.cells(cells[i], least, &format!("{path}.cells.{i}"));
                 }
-                self.positive(*grading, &format!("{path}.grading"), "-");
+                self.grading(*grading, &format!("{path}.grading"));
             }
         }
         let nodes = mesh.size(self.scene.refine).nodes;
@@ -98,7 +98,7 @@ impl Checker<'_> {
             );
             self.require(larger, &format!("{path}.max.{i}"), message);
             self.cells(cells[i], 1, &format!("{path}.cells.{i}"));
-            self.positive(grading[i], &format!("{path}.grading.{i}"), "-");
+            self.grading(grading[i], &format!("{path}.grading.{i}"));
         }
     }
 
@@ -123,11 +123,15 @@ impl Checker<'_> {
             match *piece {
                 Piece::Cells { cells, grading, .. } => {
                     self.cells(cells, 1, &format!("{path}.cells"));
-                    self.positive(grading, &format!("{path}.grading"), "-");
+                    self.grading(grading, &format!("{path}.grading"));
                 }
                 Piece::Growing { growth, .. } => {
                     let allowed = growth.is_finite() && growth >= 1.0;
-                    self.require(allowed, &format!("{path}.growth"), "must be 1 or more [-]");
+                    self.require(
+                        allowed,
+                        &format!("{path}.growth"),
+                        "must be 1 or more [-], and finite",
+                    );
                     let message =
                         "has no piece before whose cells it could continue; begin with Cells";
                     self.require(i > 0, &path, message);

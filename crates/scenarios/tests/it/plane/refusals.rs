@@ -64,8 +64,14 @@ fn axes_of_grids_are_checked_piece_by_piece() {
         (
             "Cells(to: 4, cells: 2, grading: 0)",
             "1.grading",
-            &["greater than 0"],
+            &["between 1e-9 and 1e9"],
         ),
+        (
+            "Cells(to: 4, cells: 2, grading: 1e300)",
+            "1.grading",
+            &["between 1e-9 and 1e9"],
+        ),
+        ("Growing(to: 4, growth: inf)", "1.growth", &["and finite"]),
         ("Cells(to: 1, cells: 2)", "1.to", &["must differ"]),
     ];
     for (piece, path, words) in cases {
