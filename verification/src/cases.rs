@@ -4,7 +4,7 @@ pub mod adhesion;
 pub mod bar;
 pub mod block;
 pub mod contact_patch;
-pub mod first_light;
+pub mod first_scenes;
 pub mod free_body;
 pub mod hertz;
 pub mod hu2022;
@@ -19,9 +19,9 @@ use crate::Case;
 pub fn all() -> Vec<Case> {
     vec![
         bar::on_a_wall(),
-        first_light::impact(),
-        first_light::press_twist(),
-        first_light::twist_dry(),
+        first_scenes::impact(),
+        first_scenes::press_twist(),
+        first_scenes::twist_dry(),
         bar::on_a_clamped_bar(),
         bar::exchange(),
         bar::impedances(),

@@ -58,10 +58,67 @@ const FORMS: &[(&str, &[&str])] = &[
     ("wheel", &["mesh.cells=8", "time.end=0.03"]),
 ];
 
-/// One plan a scene.
+/// The other elements, the projected dilatation and the position level of an impact: name, scene and changed values.
+const VARIANTS: &[(&str, &str, &[&str])] = &[
+    (
+        "bar-impact-position",
+        "bar-impact",
+        &["contact=Position", "time.end=2.2", "dt=0.02"],
+    ),
+    (
+        "contact-patch-quad9",
+        "contact-patch",
+        &["low.mesh.element=Quad9", "high.mesh.element=Quad9"],
+    ),
+    (
+        "flat-punch-projected",
+        "flat-punch",
+        &[
+            "block.mesh.element=Quad4",
+            "block.dilatation=Projected",
+            "nu=0.4999",
+        ],
+    ),
+    (
+        "hertz-ball-tet4",
+        "hertz-ball",
+        &["refine=1", "mesh.element=Tet4"],
+    ),
+    (
+        "hertz-cylinder-quad9",
+        "hertz-cylinder",
+        &["refine=1", "dt=0.25", "mesh.element=Quad9"],
+    ),
+    (
+        "hertz-cylinder-tri3",
+        "hertz-cylinder",
+        &["refine=1", "dt=0.25", "mesh.element=Tri3"],
+    ),
+    (
+        "hertz-sphere-tri6",
+        "hertz-sphere",
+        &["refine=1", "dt=0.25", "mesh.element=Tri6"],
+    ),
+    (
+        "press-twist-tet10",
+        "press-twist",
+        &["cells=(6, 6, 2)", "mesh.element=Tet10"],
+    ),
+    (
+        "twist-hex27",
+        "twist",
+        &["cells=(4, 4, 2)", "mesh.element=Hex27"],
+    ),
+];
+
+/// One plan a scene, and some more.
 pub fn short_forms() -> Vec<Plan> {
     let plan = |(scene, sets): &(&str, &[&str])| Plan::new(*scene, *scene, sets.iter().copied());
-    FORMS.iter().map(plan).collect()
+    let variant = |(name, scene, sets): &(&str, &str, &[&str])| {
+        Plan::new(*name, *scene, sets.iter().copied())
+    };
+    let forms = FORMS.iter().map(plan);
+    forms.chain(VARIANTS.iter().map(variant)).collect()
 }
 
 #[cfg(test)]

@@ -15,21 +15,21 @@ use record::Record;
 pub(crate) fn run(names: &[String], update: bool) -> Outcome {
     let forms = short_forms().into_iter();
     let plans: Vec<Plan> = forms
-        .filter(|plan| names.is_empty() || names.contains(&plan.scene))
+        .filter(|plan| names.is_empty() || names.contains(&plan.name))
         .collect();
     if plans.is_empty() {
-        return Err(format!("no scene is called {}", names.join(", ")));
+        return Err(format!("no short form is called {}", names.join(", ")));
     }
-    let scenes: Vec<String> = plans.iter().map(|plan| plan.scene.clone()).collect();
+    let all: Vec<String> = plans.iter().map(|plan| plan.name.clone()).collect();
     let runs = compute_all(plans, &|_| ());
     let mut failures = Vec::new();
-    for (scene, run) in scenes.iter().zip(runs) {
+    for (name, run) in all.iter().zip(runs) {
         match run
             .and_then(Ran::completed)
             .and_then(|ran| judge(&ran, update))
         {
             Ok(differences) => failures.extend(differences),
-            Err(reason) => failures.push(format!("{scene}: {reason}")),
+            Err(reason) => failures.push(format!("{name}: {reason}")),
         }
     }
     if failures.is_empty() {
@@ -43,15 +43,15 @@ pub(crate) fn run(names: &[String], update: bool) -> Outcome {
 
 /// Stores a run or tells in what it differs from the stored one.
 fn judge(ran: &Ran, update: bool) -> Result<Vec<String>, String> {
-    let (scene, cpu) = (&ran.plan.scene, ran.summary.cpu_s);
+    let (name, cpu) = (&ran.plan.name, ran.summary.cpu_s);
     if update {
         store(ran)?;
-        println!("{scene}: {cpu:.2} s CPU, stored");
+        println!("{name}: {cpu:.2} s CPU, stored");
         return Ok(Vec::new());
     }
     let findings = compare(ran)?;
-    println!("{scene}: {cpu:.2} s CPU, {}", findings.word());
-    let told = findings.failures.iter().map(|f| format!("{scene}: {f}"));
+    println!("{name}: {cpu:.2} s CPU, {}", findings.word());
+    let told = findings.failures.iter().map(|f| format!("{name}: {f}"));
     Ok(told.collect())
 }
 
@@ -76,14 +76,14 @@ impl Findings {
     }
 }
 
-fn path(scene: &str) -> std::path::PathBuf {
+fn path(name: &str) -> std::path::PathBuf {
     root()
         .join("verification/regress")
-        .join(format!("{scene}.json"))
+        .join(format!("{name}.json"))
 }
 
 fn store(ran: &Ran) -> Outcome {
-    let path = path(&ran.plan.scene);
+    let path = path(&ran.plan.name);
     let mut text = serde_json::to_string_pretty(&Record::of(ran)?).map_err(|e| e.to_string())?;
     text.push('\n');
     let folder = path.parent().unwrap_or(&path);
@@ -93,12 +93,12 @@ fn store(ran: &Ran) -> Outcome {
 }
 
 fn compare(ran: &Ran) -> Result<Findings, String> {
-    let path = path(&ran.plan.scene);
+    let path = path(&ran.plan.name);
     let told = |e: &dyn std::fmt::Display| {
         format!(
             "{}: {e}; `cargo xtask regress --update {}` writes it",
             path.display(),
-            ran.plan.scene
+            ran.plan.name
         )
     };
     let text = std::fs::read_to_string(&path).map_err(|e| told(&e))?;

@@ -121,8 +121,10 @@ struct Control {
     /// Accepted steps since the level last changed.
     successes: usize,
     growth_after: usize,
-    /// Accepted steps before the next growth: twice as many after each growth that failed soon.
+    /// Accepted steps before a growth to the level that failed last: twice as many each time.
     patience: usize,
+    /// The level that a growth led to and that failed soon.
+    failed: Option<u32>,
     /// Whether the level last changed by growing.
     grown: bool,
 }
@@ -146,6 +148,7 @@ impl Control {
             successes: 0,
             growth_after: model.settings.growth_after,
             patience: model.settings.growth_after,
+            failed: None,
             grown: false,
         }
     }
@@ -181,21 +184,32 @@ impl Control {
 
     fn grow(&mut self) {
         self.successes += 1;
-        if self.successes < self.patience {
+        if self.level == 0 || self.successes < self.wait() {
             return;
         }
-        if self.grown {
+        if self.failed.is_some_and(|failed| self.level <= failed) {
+            self.failed = None;
             self.patience = self.growth_after;
         }
-        self.grown = self.level > 0;
-        if self.grown {
-            self.level -= 1;
-            self.successes = 0;
+        self.level -= 1;
+        self.successes = 0;
+        self.grown = true;
+    }
+
+    /// Steps to accept before the level falls. Below the level that failed the way up is free.
+    fn wait(&self) -> usize {
+        match self.failed {
+            Some(failed) if self.level <= failed + 1 => self.patience,
+            _ => self.growth_after,
         }
     }
 
     fn rejected(&mut self, time: f64, dt: f64, reason: &StepFailure) -> Result<(), NscdError> {
         if self.grown && self.successes < self.patience {
+            if self.failed != Some(self.level) {
+                self.patience = self.growth_after;
+            }
+            self.failed = Some(self.level);
             self.patience = (2 * self.patience).min(MOST_PATIENCE * self.growth_after);
         }
         self.successes = 0;
@@ -218,8 +232,8 @@ impl Control {
 mod tests {
     use super::*;
 
-    /// Steps of a control for which every step above `longest` fails: accepted and rejected ones.
-    fn counts(longest: f64, steps: usize) -> [usize; 2] {
+    /// Steps of a control for which every step above `longest(steps so far)` fails: accepted and rejected ones.
+    fn counts(longest: impl Fn(usize) -> f64, steps: usize) -> [usize; 2] {
         let mut control = Control {
             span: Span { end: 1e9, dt: 1.0 },
             targets: vec![1e9],
@@ -228,12 +242,13 @@ mod tests {
             successes: 0,
             growth_after: 2,
             patience: 2,
+            failed: None,
             grown: false,
         };
         let (mut t, mut made) = (0.0, [0, 0]);
         while made[0] < steps {
             let dt = control.next(t).unwrap();
-            if dt > longest {
+            if dt > longest(made[0]) {
                 control
                     .rejected(t, dt, &StepFailure::Element("inverted".into()))
                     .unwrap();
@@ -249,9 +264,20 @@ mod tests {
 
     #[test]
     fn a_step_that_cannot_grow_is_tried_less_and_less() {
-        assert_eq!(counts(1.0, 100), [100, 0]);
-        let [made, failed] = counts(0.3, 1000);
+        assert_eq!(counts(|_| 1.0, 100), [100, 0]);
+        let [made, failed] = counts(|_| 0.3, 1000);
         // Growth is tried after 2, 4, 8, 16 and then every 32 steps, and costs one failure each time.
         assert_eq!(failed, 2 + 4 + (made - 30) / 32);
+    }
+
+    #[test]
+    fn the_way_up_from_a_single_short_step_is_not_held_up_by_other_failures() {
+        let [_, steady] = counts(|_| 0.3, 400);
+        let [_, once] = counts(|n| if n == 200 { 0.02 } else { 0.3 }, 400);
+        // Four or five cuts down to 1/64, and few tries more of what fails anyway.
+        assert!((once - steady) <= 6, "{once} {steady}");
+        let control = |n: usize| if n == 200 { 0.02 } else { 1.0 };
+        // Two steps on each of six levels, and all others long.
+        assert_eq!(counts(control, 400), [400, 6]);
     }
 }
