@@ -298,14 +298,17 @@ impl SurfaceSearch {
         let vertices = self.vertices(facet, &mut buffer);
         let normal = unit(interpolate(&corner_normals[..count], &at.weights))
             .or_else(|| facet_normal(vertices, at.coordinates))?;
-        let offset = self.without_overhang(sub(x, at.point), facet, at)?;
+        let whole = sub(x, at.point);
+        let offset = self.without_overhang(whole, facet, at)?;
         // The signed distance, not n . offset: the same on a flat surface, and continuous where the
         // closest point jumps from one side of a valley to the other, as n is not.
-        let along_facet_normal = match at.place {
+        let along_a_normal = match at.place {
             Place::Interior => facet_normal(vertices, at.coordinates).map(|m| dot(m, offset)),
+            // Two rims that meet at an angle leave some overhang of each other, which is no gap.
+            Place::Vertex(_) if offset != whole => Some(dot(normal, offset)),
             _ => None,
         };
-        let gap = along_facet_normal.unwrap_or_else(|| norm(offset).copysign(dot(normal, offset)));
+        let gap = along_a_normal.unwrap_or_else(|| norm(offset).copysign(dot(normal, offset)));
         Some(SurfaceContact {
             facet,
             nodes: corners.map(|i| self.nodes[i as usize]),

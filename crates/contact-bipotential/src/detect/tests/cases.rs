@@ -34,6 +34,22 @@ fn flush_sides_are_in_contact_and_overhanging_nodes_are_not() {
     }
 }
 
+/// Past a corner that is not square what a node overhangs one rim by is partly overhang of the other, none of it a gap.
+#[test]
+fn the_gap_over_a_skew_corner_is_that_along_the_normal() {
+    let skew = |u: f64, v: f64| [u + 0.3 * v, v, 0.0];
+    for z in [0.0, 1e-7, -1e-7] {
+        let scene = grid(3, 3, false, skew, &[[1.3 + 4e-7, 1.0 + 4e-7, z]]);
+        let map = scene.detect(0.1);
+        assert_eq!(map.len(), 1);
+        assert!(
+            (map.contacts[0].gap - z).abs() < 1e-20,
+            "{:e}",
+            map.contacts[0].gap
+        );
+    }
+}
+
 #[test]
 fn a_slab_on_a_ridge_keeps_its_rim_nodes() {
     // A half cylinder one facet thick, as in plane strain: every node lies on the rim, above convex ridges too.
