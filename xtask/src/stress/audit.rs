@@ -46,6 +46,8 @@ pub(super) struct Auditor<'a> {
     /// Longest distance in an element: strains carry the round-off of numbers of size one.
     element: f64,
     extent: f64,
+    /// Largest displacement so far.
+    way: f64,
     /// Mass of the heaviest unknown and stiffness of the stiffest at the start.
     mass: f64,
     stiffness: f64,
@@ -74,6 +76,7 @@ impl<'a> Auditor<'a> {
             edge: edges(model).fold(f64::INFINITY, f64::min),
             element: edges(model).fold(0.0, f64::max),
             extent: x.iter().flatten().fold(0.0, |m: f64, c| m.max(c.abs())),
+            way: largest(&start.u),
             mass: largest(&model.mass.row_sums()),
             stiffness: stiffness(model, &vec![0.0; n])?,
             worst: Worst::default(),
@@ -92,11 +95,14 @@ impl<'a> Auditor<'a> {
         Ok(())
     }
 
-    /// Force that the round-off of positions of the size `extent` \[m\] makes, with room for the sums \[N\].
+    /// Force that the round-off of positions of the size `extent` \[m\] makes by stiffness, damping and inertia, with room for
+    /// the sums \[N\].
     fn round_off(&self, extent: f64, state: &State, dt: f64) -> f64 {
+        let damping = &self.model.damping;
+        let drag = (damping.mass * self.mass + damping.stiffness * self.stiffness) / dt;
         let rate = match self.model.scheme.inertia {
-            Inertia::Dynamic => self.mass / (dt * dt),
-            Inertia::QuasiStatic => 0.0,
+            Inertia::Dynamic => drag + self.mass / (dt * dt),
+            Inertia::QuasiStatic => drag,
         };
         let travel = largest(&state.u) + dt * largest(&state.v) + extent;
         1e4 * f64::EPSILON * (rate + self.stiffness) * travel
@@ -237,7 +243,8 @@ impl<'a> Auditor<'a> {
             .abs()
             .max((now - self.start_energy - told).abs());
         // What the forces that count as zero can do along the way.
-        let round_off = self.round_off(self.element, state, report.dt) * largest(&state.u);
+        self.way = self.way.max(largest(&state.u));
+        let round_off = self.round_off(self.element, state, report.dt) * self.way;
         if open > ENERGY * scale + round_off {
             return Err(format!("the energy audit leaves {open:e} J of {scale:e} J"));
         }
