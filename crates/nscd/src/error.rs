@@ -33,19 +33,23 @@ pub enum NscdError {
         /// First node of the body.
         node: usize,
     },
-    /// A slave node that starts inside the body of its master, where no contact holds it.
+    /// A node of an interface that starts under the other side, where no contact holds it.
     #[error(
-        "node {node} of interface \"{interface}\" starts {depth:e} m inside the body of its master, and no contact is found for \
-         it within the search distance of {reach:e} m; start the bodies apart, set a larger search_distance, or add the faces \
-         that it came through to the master"
+        "node {node} of interface \"{interface}\" starts inside the body of the {of}, {depth:e} m under its surface and {under:e} m \
+         from the {of} itself, and no contact is found for it (search_distance: {reach:e} m); start the bodies apart, set a larger \
+         search_distance, or let the {of} reach to where the node came in"
     )]
     Buried {
+        /// The side under which it lies: master or slave.
+        of: &'static str,
         /// The node.
         node: u32,
         /// Name of the interface.
         interface: String,
-        /// Depth under the boundary of the body \[m\].
+        /// Its distance to the nearest boundary of that body \[m\].
         depth: f64,
+        /// Its distance to that side \[m\].
+        under: f64,
         /// Reach of the search \[m\].
         reach: f64,
     },
@@ -214,7 +218,7 @@ pub enum StepFailure {
     },
     /// A slave node lies under its master and the search does not see it.
     #[error(
-        "node {node} of interface \"{interface}\" lies {depth:e} m inside the body of its master and its contact is lost: deeper \
+        "node {node} of interface \"{interface}\" lies {depth:e} m under its master and its contact is lost: deeper \
          than the contact search reaches, round the rim or in a fold; try smaller steps, position-level contact or a larger search_distance"
     )]
     Lost {

@@ -33,6 +33,7 @@ mod swept;
 mod trial;
 mod unsupported;
 
+pub use buried::Buried;
 pub use error::{NscdError, StepFailure};
 pub use march::{Observer, Span, Totals, march};
 pub use model::{Load, Model, Rayleigh};

@@ -1,5 +1,6 @@
 //! From start to end: step control, observers, totals.
 
+use crate::buried::Buried;
 use crate::error::{NscdError, StepFailure};
 use crate::model::Model;
 use crate::report::{EnergyTerms, Rejection, StepReport};
@@ -39,6 +40,8 @@ pub struct Totals {
     pub max_contact_error: f64,
     /// Largest relative residual in an accepted step [-].
     pub max_residual: f64,
+    /// Slave nodes inside their masters at the end of the run.
+    pub buried: Option<Buried>,
     /// Rejected steps.
     pub rejections: Vec<Rejection>,
 }
@@ -77,6 +80,20 @@ pub fn march(
     observer: &mut dyn Observer,
 ) -> Result<(), NscdError> {
     totals.initial_energy = state.kinetic_energy + state.strain_energy + state.adhesive_energy;
+    let end = advance(stepper, state, span, totals, observer);
+    totals.buried = stepper.buried(state);
+    let depth = totals.buried.map_or(0.0, |buried| buried.depth);
+    totals.max_penetration = totals.max_penetration.max(depth);
+    end
+}
+
+fn advance(
+    stepper: &mut Stepper<'_>,
+    state: &mut State,
+    span: Span,
+    totals: &mut Totals,
+    observer: &mut dyn Observer,
+) -> Result<(), NscdError> {
     let mut control = Control::new(stepper.model(), span);
     while let Some(dt) = control.next(state.time) {
         match stepper.step(state, dt) {

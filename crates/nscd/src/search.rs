@@ -2,7 +2,6 @@
 
 use contact_bipotential::{Contact, ContactMap, Interface, Master, Obstacle, Shape};
 
-use crate::buried::refuse_lost;
 use crate::contact::filtered;
 use crate::error::StepFailure;
 use crate::model::point;
@@ -56,11 +55,11 @@ impl Stepper<'_> {
             return Ok(0.0);
         }
         if model.scheme.contact == ContactLevel::Position {
-            refuse_lost(model, &self.hulls, &trial.u, &trial.map.contacts)?;
+            self.refuse_lost(frame.now, &trial.u, &trial.map.contacts)?;
             return Ok(0.0);
         }
         let end = self.detect(frame, &trial.u);
-        refuse_lost(model, &self.hulls, &trial.u, &end.contacts)?;
+        self.refuse_lost(frame.now, &trial.u, &end.contacts)?;
         for c in &mut trial.map.contacts {
             let key = (c.interface, c.slave_index);
             let found = end

@@ -6,7 +6,7 @@ use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
 use crate::body::{BodySystem, MatrixParts};
 use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
 use crate::brace::braces;
-use crate::buried::{Hull, refuse_overlap};
+use crate::buried::Hull;
 use crate::contact::{ContactMemory, LinearisedContact, cone_of};
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
@@ -57,9 +57,6 @@ impl<'m> Stepper<'m> {
         };
         refuse_unsupported(model, &fixed)?;
         refuse_velocity_level(model)?;
-        let mut detector = detector(model)?;
-        let hulls = Hull::of(model)?;
-        refuse_overlap(model, &hulls, &mut detector)?;
         let dim = model.solid.dim();
         let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
         let all = model.solid.bodies();
@@ -81,11 +78,11 @@ impl<'m> Stepper<'m> {
         } else {
             None
         };
-        Ok(Self {
+        let mut stepper = Self {
             bodies,
             fixed,
-            detector,
-            hulls,
+            detector: detector(model)?,
+            hulls: Hull::masters(model)?,
             memory: ContactMemory::new(model),
             work,
             initial_stiffness,
@@ -95,7 +92,9 @@ impl<'m> Stepper<'m> {
             phases: [0.0; 6],
             clock,
             model,
-        })
+        };
+        stepper.refuse_overlap()?;
+        Ok(stepper)
     }
 
     /// The model that is advanced.

@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use nscd::{Clock, Inertia, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
+use nscd::{
+    Clock, Inertia, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march,
+};
 use thiserror::Error;
 
 use crate::build::{Built, build};
@@ -60,7 +62,7 @@ pub fn run_with(
 ) -> Result<Summary, RunError> {
     let stopwatch = Stopwatch::start();
     let built = build(loaded).map_err(Box::new)?;
-    let refuse = |e: NscdError| Box::new(loaded.refuse("time", e.to_string()));
+    let refuse = |e: NscdError| Box::new(loaded.refuse(&place(&e), e.to_string()));
     let mut stepper = Stepper::new(&built.model, Box::new(stopwatch)).map_err(refuse)?;
     let mut state = stepper
         .initial_state(built.velocity.clone())
@@ -192,6 +194,14 @@ impl Observer for Recorder<'_> {
     }
 }
 
+/// Where in a scene to look for the cause of an error.
+fn place(error: &NscdError) -> String {
+    match error {
+        NscdError::Buried { interface, .. } => format!("interfaces.{interface}"),
+        _ => "time".to_owned(),
+    }
+}
+
 fn rejection(r: &nscd::Rejection) -> String {
     format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
 }
@@ -201,19 +211,19 @@ const NOTABLE_ERROR: f64 = 0.1;
 
 fn warnings(
     energy: &EnergySummary,
-    largest: f64,
-    inertia: Inertia,
+    totals: &Totals,
+    model: &Model,
     lost_bonds: u64,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
-    let share = energy.integration_share(largest);
+    let share = energy.integration_share(totals.largest_energy);
     // Not a number is no small share.
     if energy.unexplained().is_nan() {
         warnings.push("an energy is not a number: do not believe this run".to_owned());
     }
     if share > NOTABLE_ERROR {
         let part = 100.0 * share;
-        warnings.push(match inertia {
+        warnings.push(match model.scheme.inertia {
             Inertia::Dynamic => format!(
                 "the time integration made up {part:.0} % of the energy: take smaller steps before you believe the numbers"
             ),
@@ -226,6 +236,13 @@ fn warnings(
         warnings.push(format!(
             "{lost_bonds} bonds that still held were lost with their pair: nodes slid off their master or moved too far in one \
              step; try a larger master, smaller steps or a larger search_distance"
+        ));
+    }
+    if let Some(buried) = totals.buried {
+        warnings.push(format!(
+            "at the end {} slave nodes lie inside the bodies of their masters and no contact holds them, node {} of interface \"{}\" \
+             {:e} m deep: they came in through sides that belong to no master, or over its rim",
+            buried.nodes, buried.node, model.interfaces[buried.interface].name, buried.depth
         ));
     }
     warnings
@@ -266,12 +283,7 @@ pub fn summarise(
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
         rejections: totals.rejections.iter().take(100).map(rejection).collect(),
-        warnings: warnings(
-            &energy,
-            totals.largest_energy,
-            stepper.model().scheme.inertia,
-            counters.lost_bonds,
-        ),
+        warnings: warnings(&energy, totals, stepper.model(), counters.lost_bonds),
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

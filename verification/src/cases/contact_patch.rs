@@ -29,7 +29,11 @@ pub fn non_matching() -> Case {
                 Nodes of the slave on facets of the master, one pass. `size` is the size of a cell of the slave over that of the master.",
         scene: "contact-patch",
         sets: Vec::new(),
-        ladders: vec![with("quadrilaterals", "Quad4"), with("triangles", "Tri3")],
+        ladders: vec![
+            with("quadrilaterals", "Quad4"),
+            with("triangles", "Tri3"),
+            with("quadratic quadrilaterals", "Quad9"),
+        ],
         measure: |ran| measure(ran, 1, 1.0),
     }
 }
