@@ -16,6 +16,8 @@ use crate::stepper::Stepper;
 const STEP: f64 = 2e-6;
 /// Most that it steps back, as a part of the way to the middle of the cell \[-\].
 const MOST: f64 = 1e-2;
+/// Depth over the search distance that nodes of a master, which may enter the slave, should not have at the start \[-\].
+const DEEP: f64 = 2.0;
 /// Slave nodes that a thread takes at once.
 const GRAIN: usize = 8;
 
@@ -82,6 +84,9 @@ impl Inside {
 impl Hull {
     /// The master side of every interface with a deformable master.
     pub(crate) fn masters(model: &Model) -> Result<Vec<Hull>, NscdError> {
+        if surfaces(model).next().is_none() {
+            return Ok(Vec::new());
+        }
         let whole = Whole::of(model);
         let hull = |(k, master): (usize, &Surface)| {
             let side = Side::of_facets(master);
@@ -338,7 +343,7 @@ impl Stepper<'_> {
         for hull in Hull::slaves(model)? {
             let reach = model.interfaces[hull.interface].search_distance;
             let masters = hull.insides(&x, dim, &hull.near(&x, dim)).into_iter();
-            let mut deep = masters.filter(|i| i.is_stuck() && i.depth() > reach);
+            let mut deep = masters.filter(|i| i.is_stuck() && i.depth() > DEEP * reach);
             if let Some(inside) = deep.next() {
                 return refused(hull.interface, inside, "slave");
             }

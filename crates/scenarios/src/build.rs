@@ -238,6 +238,15 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
             Master::Obstacle(obstacle.map_err(|e| e.to_string())?)
         }
     };
+    let sizes = (reach / OUT_OF_PROPORTION)..=(reach * OUT_OF_PROPORTION);
+    if let Some(far) = given.search_distance.filter(|far| !sizes.contains(far)) {
+        return Err(format!(
+            "search_distance = {far:e} m is out of proportion: from {:e} to {:e} m are allowed where facets are up to {reach:e} m \
+             large",
+            sizes.start(),
+            sizes.end()
+        ));
+    }
     let adhesion = given.adhesion.as_ref().map(adhesion);
     if let Some(bonds) = given.adhesion.filter(|bonds| bonds.normal_stiffness > 0.0) {
         reach = reach.max(BOND_REACH * (bonds.energy / bonds.normal_stiffness).sqrt());
@@ -251,6 +260,8 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
     Ok(interface)
 }
 
+/// Search distances beyond this multiple of the size of facets, or below its inverse, are slips.
+const OUT_OF_PROPORTION: f64 = 1e6;
 /// How far bonds are followed, in lengths `sqrt(w / C_n)` at which they start to break \[-\].
 const BOND_REACH: f64 = 10.0;
 

@@ -201,7 +201,8 @@ A run counts in every row whose extreme it has.\n\n\
 - **Contact problems** that are not solved in the iterations allowed (2000 here, 20000 by default) cost most of the time of a\n\
   hopeless run. Lower `solver.max_contact_iterations` to fail sooner.\n\
 - **Overlap** of deformable bodies deeper than `search_distance` is refused before the first step; a contact that is lost on the way\n\
-  inside its master stops the run (*contact lost*). Start closer, or give the distance.\n\
+  under its master stops the run (*contact lost*), and nodes that came in through a side that is no master are told in a warning at\n\
+  the end. Start closer, or give the distance.\n\
 - **Self-contact** does not exist: a master that is crushed until its surface folds over itself may lose a slave in the fold.\n\
 - **Round-off** of masses and damping over steps of 1e-11 s is more than 1e-8 of the forces; what it can make is not held against a run.\n\
 - A scene cannot choose the method of its contact solve, so the map shows the one that the program takes.\n\n\

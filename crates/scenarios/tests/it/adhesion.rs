@@ -78,6 +78,14 @@ fn bonds_are_followed_further_than_facets() {
     assert_eq!(reach("adhesion: (C_n: 0, C_t: 1, w: 20, b: 1)"), dry);
     let given = "search_distance: 0.25, adhesion: (C_n: 100, C_t: 1, w: 1, b: 1)";
     assert_eq!(reach(given), 0.25);
+    for slip in ["1e-12", "1e12"] {
+        let given = changed("mu: 0.4", &format!("search_distance: {slip}")).unwrap();
+        let told = build(&given).unwrap_err().to_string();
+        assert!(
+            told.contains("interfaces.ground") && told.contains("out of proportion"),
+            "{told}"
+        );
+    }
 }
 
 /// The adhesion of the paper with one more or another field is refused at that field.

@@ -1,6 +1,6 @@
 //! Meshes of bodies.
 
-use super::{Checker, MAX_NODES};
+use super::{Checker, MAX_GRADING, MAX_NODES};
 use crate::spec::{Axis, Element, Mesh, Piece};
 
 impl Checker<'_> {
@@ -126,11 +126,10 @@ impl Checker<'_> {
                     self.grading(grading, &format!("{path}.grading"));
                 }
                 Piece::Growing { growth, .. } => {
-                    let allowed = growth.is_finite() && growth >= 1.0;
                     self.require(
-                        allowed,
+                        (1.0..=MAX_GRADING).contains(&growth),
                         &format!("{path}.growth"),
-                        "must be 1 or more [-], and finite",
+                        format!("must be 1 or more and at most {MAX_GRADING:e} [-]"),
                     );
                     let message =
                         "has no piece before whose cells it could continue; begin with Cells";

@@ -71,7 +71,7 @@ fn axes_of_grids_are_checked_piece_by_piece() {
             "1.grading",
             &["between 1e-9 and 1e9"],
         ),
-        ("Growing(to: 4, growth: inf)", "1.growth", &["and finite"]),
+        ("Growing(to: 4, growth: inf)", "1.growth", &["at most 1e9"]),
         ("Cells(to: 1, cells: 2)", "1.to", &["must differ"]),
     ];
     for (piece, path, words) in cases {
