@@ -34,7 +34,7 @@ pub struct Totals {
     pub largest_energy: f64,
     /// Energy terms summed over the steps.
     pub energy: EnergyTerms,
-    /// Deepest penetration at the end of a step \[m\].
+    /// Deepest penetration at the end of a step, and of slave nodes without contact at the end of the run \[m\].
     pub max_penetration: f64,
     /// Largest relative error of the contact law in an accepted step [-].
     pub max_contact_error: f64,

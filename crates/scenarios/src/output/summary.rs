@@ -61,7 +61,7 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Energy audit.
     pub energy: EnergySummary,
-    /// Deepest penetration at the end of an accepted step \[m\].
+    /// Deepest penetration at the end of an accepted step, and of slave nodes without contact at the end of the run \[m\].
     pub max_penetration: f64,
     /// Largest relative error of the contact law in an accepted step \[-\].
     pub max_contact_error: f64,
