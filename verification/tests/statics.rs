@@ -67,7 +67,6 @@ fn a_ball_needs_the_force_of_hertz_in_space() {
 }
 
 #[test]
-#[ignore = "a dozen seconds"]
 fn a_ball_needs_the_force_of_hertz_in_space_to_a_hundredth() {
     let fine = run(&hertz::ball(), &[]);
     assert_within(&fine, "force", 1e-2);
@@ -112,7 +111,6 @@ fn a_ball_slips_in_part_as_cattaneo_and_mindlin_say() {
 }
 
 #[test]
-#[ignore = "half a minute"]
 fn a_ball_slips_in_part_to_a_hundredth() {
     let fine = run(&mindlin::sphere(), &[]);
     assert_within(&fine, "stick over contact radius", 1e-2);
