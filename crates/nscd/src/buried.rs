@@ -301,6 +301,7 @@ impl Stepper<'_> {
         let dim = self.model.solid.dim();
         let near: Vec<Vec<u32>> = self.hulls.iter().map(|hull| hull.near(x, dim)).collect();
         if near.iter().all(Vec::is_empty) {
+            self.book(Phase::Detection, start);
             return Vec::new();
         }
         let contacts = self.detector.detect(x, time, time).contacts;
@@ -336,8 +337,8 @@ impl Stepper<'_> {
                 reach: model.interfaces[interface].search_distance,
             })
         };
-        let slaves = self.unheld(&x, 0.0).into_iter();
-        if let Some((k, inside)) = slaves.into_iter().find(|(_, i)| i.is_stuck()) {
+        let mut slaves = self.unheld(&x, 0.0).into_iter();
+        if let Some((k, inside)) = slaves.find(|(_, i)| i.is_stuck()) {
             return refused(k, inside, "master");
         }
         for hull in Hull::slaves(model)? {
@@ -377,8 +378,8 @@ impl Stepper<'_> {
             if x.is_empty() {
                 x = self.model.positions(u);
             }
-            let found = hull.insides(&x, dim, &lost).into_iter();
-            if let Some(inside) = found.into_iter().find(Inside::is_under_side) {
+            let mut found = hull.insides(&x, dim, &lost).into_iter();
+            if let Some(inside) = found.find(Inside::is_under_side) {
                 return Err(StepFailure::Lost {
                     node: inside.node,
                     interface: self.model.interfaces[hull.interface].name.clone(),
