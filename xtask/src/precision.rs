@@ -5,11 +5,11 @@ mod contact;
 
 use crate::Outcome;
 
-/// Makes the named studies, or all: `contact`, and the cases of the package `verification` by name.
+/// Makes the named studies, or all: `contact`, and the cases of the package `tests` by name.
 pub(crate) fn run(names: &[String]) -> Outcome {
     let wanted = |name: &str| names.is_empty() || names.iter().any(|n| n == name);
     let known: Vec<&str> = std::iter::once("contact")
-        .chain(verification::cases::all().iter().map(|case| case.name))
+        .chain(tests::cases::all().iter().map(|case| case.name))
         .collect();
     if let Some(unknown) = names.iter().find(|n| !known.contains(&n.as_str())) {
         return Err(format!(
@@ -20,7 +20,7 @@ pub(crate) fn run(names: &[String]) -> Outcome {
     if wanted("contact") {
         contact::run()?;
     }
-    let cases = verification::cases::all().into_iter();
+    let cases = tests::cases::all().into_iter();
     cases
         .filter(|case| wanted(case.name))
         .try_for_each(|case| cases::study(&case))

@@ -2,13 +2,13 @@
 
 mod record;
 
-use verification::short::short_forms;
-use verification::{Plan, Ran, compute_all};
+use tests::short::short_forms;
+use tests::{Plan, Ran, compute_all};
 
 use crate::{Outcome, root};
 use record::Record;
 
-/// Runs the named scenes, or all, and compares them with `verification/regress`; `update` writes the records instead.
+/// Runs the named scenes, or all, and compares them with `tests/regress`; `update` writes the records instead.
 ///
 /// # Errors
 /// What differs, scene by scene.
@@ -77,9 +77,7 @@ impl Findings {
 }
 
 fn path(name: &str) -> std::path::PathBuf {
-    root()
-        .join("verification/regress")
-        .join(format!("{name}.json"))
+    root().join("tests/regress").join(format!("{name}.json"))
 }
 
 fn store(ran: &Ran) -> Outcome {

@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use scenarios::output::{Axis, Chart, Curve, charts_svg};
-use verification::cases::indenters::{
+use tests::cases::indenters::{
     NEO_HOOKEAN, block_of, cone_at, cone_coefficient, cone_profile, cone_with_strain,
 };
-use verification::closed_form::{cone_force, cone_pressure};
+use tests::closed_form::{cone_force, cone_pressure};
 
 use super::Figure;
 use super::measure::{digits, largest_von_mises};

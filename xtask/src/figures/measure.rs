@@ -1,8 +1,8 @@
 //! Numbers read off curves and states.
 
+use ::tests::Ran;
 use nscd::State;
 use scenarios::fields::Fields;
-use verification::Ran;
 
 /// Largest value and where it is.
 pub(super) fn peak(x: &[f64], y: &[f64]) -> (f64, f64) {

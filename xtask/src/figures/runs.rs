@@ -3,8 +3,8 @@
 use nscd::State;
 use scenarios::fields::Fields;
 use scenarios::output::{Array, Axis, CellShape, Cells, Chart, Curve, Frame, Values, deformed_svg};
-use verification::compute_all;
-pub(super) use verification::{Plan as Planned, Ran};
+use tests::compute_all;
+pub(super) use tests::{Plan as Planned, Ran};
 
 /// Curves, places and pictures of a run.
 pub(super) trait Shown {

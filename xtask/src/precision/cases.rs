@@ -3,7 +3,7 @@
 mod page;
 
 use scenarios::output::{Axis, Chart, Curve, charts_svg};
-use verification::{Case, Ladder, Measured, Ran, slope};
+use tests::{Case, Ladder, Measured, Ran, slope};
 
 use crate::Outcome;
 use crate::fclib::write_document;

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use ::tests::Ran;
 use serde::{Deserialize, Serialize};
-use verification::Ran;
 
 use super::Findings;
 

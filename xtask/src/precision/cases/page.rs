@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use verification::{Case, Measured};
+use tests::{Case, Measured};
 
 use super::Climbed;
 use crate::figures::measure::digits;

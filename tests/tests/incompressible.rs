@@ -2,8 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::incompressible;
-use verification::{Case, Measured};
+use tests::cases::incompressible;
+use tests::{Case, Measured};
 
 /// Force and alternating part of the pressure with elements of projected dilatation.
 fn projected(case: &Case, nu: f64, element: &str) -> Measured {

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::adhesion::{self, HALF_SPACE, LARGE, SMALL};
-use verification::closed_form::{DMT, JKR, maugis_dugdale};
-use verification::curve::peak;
-use verification::{Plan, compute};
+use tests::cases::adhesion::{self, HALF_SPACE, LARGE, SMALL};
+use tests::closed_form::{DMT, JKR, maugis_dugdale};
+use tests::curve::peak;
+use tests::{Plan, compute};
 
 /// The pull-off force falls from DMT towards JKR, above Maugis's since the bonds' stress has a tail; at the small end it is
 /// within 1 % of -2 pi w R, and everywhere of an independent computation.

@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::indenters::{NEO_HOOKEAN, OF_THE_PAPER, block_of, cone, cone_at, punch};
-use verification::closed_form::{
+use tests::cases::indenters::{NEO_HOOKEAN, OF_THE_PAPER, block_of, cone, cone_at, punch};
+use tests::closed_form::{
     cone_strain_slope, cubic_of_neo_hookean, cubic_of_saint_venant_kirchhoff,
 };
-use verification::{Case, Measured};
+use tests::{Case, Measured};
 
 fn run(case: &Case, sets: &[&str]) -> Measured {
     let measured = case.run(sets).unwrap();

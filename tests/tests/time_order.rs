@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::{Plan, Ran, compute, slope};
+use tests::{Plan, Ran, compute, slope};
 
 /// Speed of a bar relative to that of its waves, small enough to be linear \[-\].
 const V: f64 = 1e-6;

@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::{bar, block, free_body, oblique};
-use verification::closed_form::{free_bar_period, trapezoidal_period};
-use verification::{Case, Measured, Plan, Ran, compute, slope};
+use tests::cases::{bar, block, free_body, oblique};
+use tests::closed_form::{free_bar_period, trapezoidal_period};
+use tests::{Case, Measured, Plan, Ran, compute, slope};
 
 fn measured(case: &Case, sets: &[&str]) -> Measured {
     case.run(sets).unwrap_or_else(|e| panic!("{e}"))

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use verification::cases::mindlin::Moment;
-use verification::cases::{contact_patch, hertz, mindlin};
-use verification::traction::tractions;
-use verification::{Case, Measured, Plan, Ran, compute};
+use tests::cases::mindlin::Moment;
+use tests::cases::{contact_patch, hertz, mindlin};
+use tests::traction::tractions;
+use tests::{Case, Measured, Plan, Ran, compute};
 
 /// Runs with these values and prints what was found.
 fn run(case: &Case, sets: &[&str]) -> Measured {
