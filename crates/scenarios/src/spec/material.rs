@@ -37,26 +37,27 @@ pub enum Law {
         #[serde(default)]
         lambda: Option<f64>,
     },
-    /// Third-order law in the invariants of the Green-Lagrange strain [Feng2007, eq. 16].
+    /// Energy of fourth order in the Green-Lagrange strain [Feng2007, eq. 16]: `z = tr(E)/sqrt 3` is the change of volume,
+    /// `q = tr(E_d^2)` the shear.
     #[allow(non_snake_case)]
     ThreeE {
         /// Initial shear modulus \[Pa\].
         G: f64,
         /// Initial bulk modulus \[Pa\].
         K: f64,
-        /// Coefficient of the fourth power of the volumetric strain \[Pa\].
+        /// Factor of the third invariant of the deviator, `sqrt(6) a1 det(E_d)` \[Pa\].
         #[serde(default)]
         a1: f64,
-        /// Coefficient of the fourth power of the shear \[Pa\].
+        /// Factor of the third power of the change of volume, `a2/3 z^3` \[Pa\].
         #[serde(default)]
         a2: f64,
-        /// Coefficient that couples the third invariant \[Pa\].
+        /// Factor of the coupling of volume and shear, `a3/4 z^2 q` \[Pa\].
         #[serde(default)]
         a3: f64,
-        /// Coefficient of the square of the third invariant \[Pa\].
+        /// Factor of the fourth power of the change of volume, `a4/4 z^4` \[Pa\].
         #[serde(default)]
         a4: f64,
-        /// Coefficient that couples volume and shear \[Pa\].
+        /// Factor of the fourth power of the shear, `a5/4 q^2` \[Pa\].
         #[serde(default)]
         a5: f64,
     },
