@@ -91,3 +91,16 @@ pub enum ContactError {
         reason: String,
     },
 }
+
+/// A parameter outside of its bound.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+#[error("{name} is {value}: it {bound}")]
+pub struct ParameterError {
+    /// Name and unit of the parameter.
+    pub name: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// The bound.
+    pub bound: &'static str,
+}

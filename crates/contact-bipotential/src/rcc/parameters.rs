@@ -1,6 +1,6 @@
 //! The parameters of adhesion and their bounds.
 
-use crate::interface::GeometryError;
+use crate::error::ParameterError;
 
 /// Whether broken bonds form again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -80,8 +80,8 @@ impl Adhesion {
     /// The same parameters, checked.
     ///
     /// # Errors
-    /// [`GeometryError::Parameter`] with the bound that is violated.
-    pub fn validated(self) -> Result<Self, GeometryError> {
+    /// [`ParameterError`] with the bound that is violated.
+    pub fn validated(self) -> Result<Self, ParameterError> {
         let [t1, t2] = self.tangential_stiffness;
         let not_negative = "must be >= 0 and finite";
         let bounded = [
@@ -101,10 +101,10 @@ impl Adhesion {
         ];
         for (name, value, most, bound) in bounded {
             if !(value >= 0.0 && value <= most) {
-                return Err(GeometryError::Parameter { name, value, bound });
+                return Err(ParameterError { name, value, bound });
             }
         }
-        let refuse = |name, value, bound| Err(GeometryError::Parameter { name, value, bound });
+        let refuse = |name, value, bound| Err(ParameterError { name, value, bound });
         if !(self.threshold > 0.0 && self.threshold < 1.0) {
             let bound = "must lie between 0 and 1, both excluded";
             return refuse("epsilon [-]", self.threshold, bound);

@@ -1,8 +1,8 @@
 //! The search against brute force, and the continuity that the solver relies on.
 
 use super::*;
-use crate::facet::closest_point;
-use crate::vec3::{dot, norm, sub};
+use crate::geometry::facet::closest_point;
+use crate::geometry::vec3::{dot, norm, sub};
 use fe_core::{Facet, Interpolation, Motion, Rotation, Surface, Table};
 use proptest::prelude::*;
 

@@ -2,8 +2,9 @@
 
 use fe_core::{Motion, Rotation};
 
-use crate::interface::GeometryError;
-use crate::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
+use crate::error::ParameterError;
+use crate::geometry::error::GeometryError;
+use crate::geometry::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
 ///
@@ -86,11 +87,11 @@ impl Shape {
             } => {
                 let inside = semi_apex_angle > 0.0 && semi_apex_angle < std::f64::consts::FRAC_PI_2;
                 if !inside {
-                    return Err(GeometryError::Parameter {
+                    return Err(GeometryError::Parameter(ParameterError {
                         name: "semi-apex angle [rad]",
                         value: semi_apex_angle,
                         bound: "must lie between 0 and pi/2 (90 degrees), both excluded",
-                    });
+                    }));
                 }
                 Ok(Shape::Cone {
                     apex: finite("cone apex", apex)?,
@@ -419,9 +420,9 @@ impl PlacedObstacle<'_> {
     }
 }
 
-fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], GeometryError> {
+fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], ParameterError> {
     match x.iter().find(|c| !c.is_finite()) {
-        Some(&value) => Err(GeometryError::Parameter {
+        Some(&value) => Err(ParameterError {
             name,
             value,
             bound: "must be finite",
@@ -430,19 +431,19 @@ fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], GeometryError> {
     }
 }
 
-fn direction(name: &'static str, a: [f64; 3]) -> Result<[f64; 3], GeometryError> {
-    unit(a).ok_or(GeometryError::Parameter {
+fn direction(name: &'static str, a: [f64; 3]) -> Result<[f64; 3], ParameterError> {
+    unit(a).ok_or(ParameterError {
         name,
         value: norm(a),
         bound: "must be a finite vector of length > 0",
     })
 }
 
-fn positive(name: &'static str, value: f64) -> Result<f64, GeometryError> {
+fn positive(name: &'static str, value: f64) -> Result<f64, ParameterError> {
     if value > 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err(GeometryError::Parameter {
+        Err(ParameterError {
             name,
             value,
             bound: "must be positive and finite",

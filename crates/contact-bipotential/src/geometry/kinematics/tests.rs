@@ -1,7 +1,7 @@
 //! `H` against its transpose and against a dense matrix built entry by entry.
 
 use super::*;
-use crate::vec3::{cross, norm, unit};
+use crate::geometry::vec3::{cross, norm, unit};
 use faer::Mat;
 use proptest::prelude::*;
 

@@ -2,9 +2,9 @@
 
 use fe_core::Surface;
 
-use crate::facet::facet_normal;
-use crate::interface::{Interface, Master};
-use crate::vec3::{Vec3, cross, node_vector, reject, sub, unit};
+use crate::geometry::facet::facet_normal;
+use crate::geometry::interface::{Interface, Master};
+use crate::geometry::vec3::{Vec3, cross, node_vector, reject, sub, unit};
 
 const GLOBAL: [Vec3; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
@@ -48,8 +48,8 @@ fn facet_axes(surface: &Surface, facet: usize, positions: &[f64], dim: usize) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::obstacle::{Obstacle, Shape};
-    use crate::vec3::{axpy, dot, norm};
+    use crate::geometry::obstacle::{Obstacle, Shape};
+    use crate::geometry::vec3::{axpy, dot, norm};
     use fe_core::{Facet, Motion, Rotation, Table};
     use proptest::prelude::*;
 

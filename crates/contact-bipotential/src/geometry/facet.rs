@@ -5,7 +5,7 @@
 //! A quadrilateral is `x = a + xi b + eta c + xi eta d` with `(xi, eta)` in the unit square, vertices at
 //! (0,0), (1,0), (1,1), (0,1); a triangle is the case `d = 0` with `xi + eta <= 1`.
 
-use crate::vec3::{Vec3, axpy, cross, dot, scale, sub, unit};
+use crate::geometry::vec3::{Vec3, axpy, cross, dot, scale, sub, unit};
 
 /// Where on a facet a point lies. Edges and vertices are exact: the point was clamped to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,8 +6,8 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use super::ContactMap;
-use crate::interface::GeometryError;
-use crate::vec3::Vec3;
+use crate::geometry::error::GeometryError;
+use crate::geometry::vec3::Vec3;
 
 /// Marks a component without unknown in [`CompliancePart`].
 const NO_UNKNOWN: u32 = u32::MAX;

@@ -9,10 +9,10 @@ use parry3d_f64::partitioning::{
     Bvh, BvhBuildStrategy, BvhLeafUpdateStatus, BvhNode, BvhWorkspace, TraversalAction,
 };
 
-use crate::facet::{
+use crate::geometry::facet::{
     FacetPoint, Place, closest_point, conormal, facet_normal, interpolate, vertex_coordinates,
 };
-use crate::vec3::{Vec3, axpy, dot, node_vector, norm, sub, unit};
+use crate::geometry::vec3::{Vec3, axpy, dot, node_vector, norm, sub, unit};
 
 /// Two facets are equally close when their distances agree to this part of the distance ..
 const TIE: f64 = 1e-12;

@@ -1,7 +1,7 @@
 //! Projection against brute force, closed forms and its own optimality conditions.
 
 use super::*;
-use crate::vec3::norm;
+use crate::geometry::vec3::norm;
 use proptest::prelude::*;
 
 fn add(a: Vec3, b: Vec3) -> Vec3 {

@@ -6,10 +6,11 @@ use rayon::prelude::*;
 
 use crate::cone::Cone;
 
-use crate::interface::{GeometryError, Interface, Master};
-use crate::kinematics::{Contact, ContactMap, FrameRule, Stencil};
-use crate::obstacle::{Obstacle, PlacedObstacle, Shape};
-use crate::vec3::{Vec3, axpy, node_vector, unit};
+use crate::geometry::error::GeometryError;
+use crate::geometry::interface::{Interface, Master};
+use crate::geometry::kinematics::{Contact, ContactMap, FrameRule, Stencil};
+use crate::geometry::obstacle::{Obstacle, PlacedObstacle, Shape};
+use crate::geometry::vec3::{Vec3, axpy, node_vector, unit};
 
 use surface_search::SurfaceSearch;
 

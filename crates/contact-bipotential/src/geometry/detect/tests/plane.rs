@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use faer::Mat;
 
 use super::*;
-use crate::facet::facet_normal;
-use crate::kinematics::CompliancePart;
+use crate::geometry::facet::facet_normal;
+use crate::geometry::kinematics::CompliancePart;
 
 type Point = [f64; 2];
 

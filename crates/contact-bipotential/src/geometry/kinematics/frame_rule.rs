@@ -1,6 +1,6 @@
 //! Frames of an interface: deterministic, right-handed and continuous in the normal.
 
-use crate::vec3::{Vec3, axpy, cross, dot, reject, unit};
+use crate::geometry::vec3::{Vec3, axpy, cross, dot, reject, unit};
 
 /// A rule that completes a unit normal to a frame, continuous in the normal.
 ///
@@ -66,7 +66,7 @@ impl FrameRule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vec3::{norm, sub};
+    use crate::geometry::vec3::{norm, sub};
     use proptest::prelude::*;
 
     fn direction() -> impl Strategy<Value = Vec3> {

@@ -8,7 +8,7 @@ mod condense;
 mod frame_rule;
 
 use crate::cone::Cone;
-use crate::vec3::{Vec3, axpy, dot, node_vector};
+use crate::geometry::vec3::{Vec3, axpy, dot, node_vector};
 
 pub use condense::CompliancePart;
 pub use frame_rule::FrameRule;
@@ -76,7 +76,7 @@ pub struct Contact {
     pub interface: usize,
     /// Slave node.
     pub slave: u32,
-    /// Position of the slave node in [`Interface::slave`](crate::interface::Interface::slave).
+    /// Position of the slave node in [`Interface::slave`](crate::geometry::interface::Interface::slave).
     pub slave_index: usize,
     /// Relative motion of slave and master.
     pub stencil: Stencil,
