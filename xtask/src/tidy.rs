@@ -1,10 +1,15 @@
 //! Invariants of the house that a program can check.
 
+mod copies;
+mod functions;
+mod modules;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::{Outcome, root};
+use modules::Modules;
 
 /// Crates in the order of the arrows and what each may depend on.
 const ARROWS: &[(&str, &[&str])] = &[
@@ -35,20 +40,30 @@ pub(crate) fn run() -> Outcome {
     let mut faults = Vec::new();
     check_arrows(&mut faults)?;
     let references = bibliography_keys()?;
+    let mut product = Vec::new();
     for (name, _) in ARROWS {
         let crate_root = root().join("crates").join(name);
         for file in rust_files(&crate_root)? {
             let text = read(&file)?;
-            let shown = file
-                .strip_prefix(root())
-                .unwrap_or(&file)
-                .display()
-                .to_string();
+            let shown = shown(&file, &root());
             check_file(&shown, name, &text, &mut faults);
             check_references(&shown, &text, &references, &mut faults);
             check_units(&shown, &text, &mut faults);
+            if is_product(&shown) {
+                faults.extend(functions::too_long(&shown, &text)?);
+                product.push((shown, text));
+            }
+        }
+        for name in ["src/lib.rs", "src/main.rs"] {
+            let file = crate_root.join(name);
+            if file.exists() {
+                let modules = Modules::read(&file)?;
+                faults.extend(modules.circles(&root()));
+                faults.extend(modules.scattered_impls(&root()));
+            }
         }
     }
+    faults.extend(copies::copies(&product));
     if faults.is_empty() {
         Ok(())
     } else {
@@ -97,11 +112,7 @@ fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
     if lines > LONGEST_FILE && !shown.contains("tests") {
         faults.push(format!("{shown}: {lines} lines; is it still one room?"));
     }
-    if krate == "scenarios"
-        || shown.contains("/tests/")
-        || shown.contains("/examples/")
-        || shown.ends_with("tests.rs")
-    {
+    if krate == "scenarios" || !is_product(shown) {
         return;
     }
     let product = text.split("#[cfg(test)]").next().unwrap_or(text);
@@ -114,6 +125,29 @@ fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
             ));
         }
     }
+}
+
+/// Whether the file is neither a test nor an example.
+fn is_product(shown: &str) -> bool {
+    !["/tests/", "/examples/"].iter().any(|f| shown.contains(f)) && !shown.ends_with("tests.rs")
+}
+
+/// `#[cfg(test)]`, alone or with other conditions.
+fn is_test(attributes: &[syn::Attribute]) -> bool {
+    attributes.iter().any(|a| {
+        a.path().is_ident("cfg")
+            && a.meta.require_list().is_ok_and(|list| {
+                let condition = list.tokens.to_string();
+                condition == "test" || condition.starts_with("all (test")
+            })
+    })
+}
+
+fn shown(file: &Path, root: &Path) -> String {
+    file.strip_prefix(root)
+        .unwrap_or(file)
+        .display()
+        .to_string()
 }
 
 /// `[Key, eq. 3]` in a comment must name a key of docs/references.bib.
