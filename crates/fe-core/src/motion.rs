@@ -5,6 +5,7 @@ use crate::vector::{cross, dot};
 
 /// How a table is read between its entries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Interpolation {
     /// Straight lines; the rate jumps at the entries.
     #[default]

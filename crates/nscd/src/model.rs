@@ -17,6 +17,11 @@ pub struct Load {
 
 /// Rayleigh damping `A = mass M + stiffness K_0`, with the stiffness of the undeformed bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(default, deny_unknown_fields)
+)]
 pub struct Rayleigh {
     /// Factor of the mass matrix [1/s].
     pub mass: f64,

@@ -3,9 +3,11 @@
 use crate::error::NscdError;
 
 /// Where the contact law is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ContactLevel {
     /// Signorini on the gap at the end of the step, Coulomb on the slip of the step (the papers).
+    #[default]
     Position,
     /// Moreau-Jean: Signorini on the velocity at the end of the step wherever the predicted gap
     /// closes, with restitution; Coulomb on the tangential velocity.
@@ -13,9 +15,11 @@ pub enum ContactLevel {
 }
 
 /// With or without mass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Inertia {
     /// Mass and velocities.
+    #[default]
     Dynamic,
     /// No mass: every step is an equilibrium; velocities are only reported.
     QuasiStatic,

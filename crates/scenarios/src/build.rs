@@ -2,13 +2,12 @@
 
 mod mesh;
 
-use contact_bipotential::rcc::{Healing, Reference, Update};
 use contact_bipotential::{Adhesion, Interface, Master, Obstacle, Shape};
 use fe_core::{
     Block, DeadTraction, Dilatation, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid,
     Surface, Table, solid_block_with,
 };
-use nscd::{ContactLevel, Inertia, Load, Model, Rayleigh, Scheme, Settings, Span};
+use nscd::{Load, Model, Scheme, Settings, Span};
 
 use crate::spec::{self, BuiltLaw, LoadedScene, Scene, SceneError};
 
@@ -54,10 +53,7 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
         supports: supports(loaded, solid.mesh())?,
         loads: loads(loaded, &solid, &mass)?,
         interfaces: interfaces(loaded, solid.mesh())?,
-        damping: Rayleigh {
-            mass: scene.damping.mass,
-            stiffness: scene.damping.stiffness,
-        },
+        damping: scene.damping,
         scheme: scheme(scene),
         settings: settings(scene),
         mass,
@@ -102,12 +98,8 @@ fn block(
     index: usize,
     law: BuiltLaw,
     density: f64,
-    dilatation: spec::Dilatation,
+    dilatation: Dilatation,
 ) -> Result<Box<dyn Block>, FeError> {
-    let dilatation = match dilatation {
-        spec::Dilatation::Pointwise => Dilatation::Pointwise,
-        spec::Dilatation::Projected => Dilatation::Projected,
-    };
     match law {
         BuiltLaw::SaintVenantKirchhoff(law) => {
             solid_block_with(mesh, index, law, density, dilatation)
@@ -138,11 +130,7 @@ fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneEr
 }
 
 fn table(table: &spec::Table) -> Result<Table, FeError> {
-    let interpolation = match table.interpolation() {
-        spec::Interpolation::Linear => fe_core::Interpolation::Linear,
-        spec::Interpolation::Smooth => fe_core::Interpolation::Smooth,
-    };
-    Table::new(table.points(), interpolation)
+    Table::new(table.points(), table.interpolation())
 }
 
 fn motion(given: &spec::Motion) -> Result<Motion, FeError> {
@@ -274,18 +262,9 @@ fn adhesion(given: &spec::Adhesion) -> Adhesion {
         threshold: given.threshold,
         healing_gap: given.healing_gap,
         initial: given.initial,
-        healing: match given.healing {
-            spec::Healing::Recoverable => Healing::Recoverable,
-            spec::Healing::Irreversible => Healing::Irreversible,
-        },
-        reference: match given.reference {
-            spec::Reference::Reset => Reference::Reset,
-            spec::Reference::Ageing => Reference::Ageing,
-        },
-        update: match given.update {
-            spec::Update::SecondOrder => Update::SecondOrder,
-            spec::Update::EnergyConsistent => Update::EnergyConsistent,
-        },
+        healing: given.healing,
+        reference: given.reference,
+        update: given.update,
         bonded_friction: given.bonded_friction,
     }
 }
@@ -351,14 +330,8 @@ fn scheme(scene: &Scene) -> Scheme {
     Scheme {
         theta: scene.time.theta,
         xi: scene.time.xi,
-        contact: match scene.time.contact {
-            spec::ContactLevel::Position => ContactLevel::Position,
-            spec::ContactLevel::Velocity => ContactLevel::Velocity,
-        },
-        inertia: match scene.time.inertia {
-            spec::Inertia::Dynamic => Inertia::Dynamic,
-            spec::Inertia::QuasiStatic => Inertia::QuasiStatic,
-        },
+        contact: scene.time.contact,
+        inertia: scene.time.inertia,
     }
 }
 

@@ -10,7 +10,6 @@
 mod body;
 mod check;
 mod error;
-mod grid;
 mod interface;
 mod load;
 mod locate;
@@ -21,18 +20,22 @@ mod paths;
 mod request;
 mod time;
 
-pub use body::{Body, Dilatation, Element, Mesh, MeshSize, PlaneElement, Pole, Symmetry};
+pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Symmetry};
 pub use error::{Fault, SceneError};
-pub use grid::{Axis, Piece};
-pub use interface::{Adhesion, Healing, Interface, Master, Reference, Stiffness, Update};
+pub use interface::{Adhesion, Interface, Master, Stiffness};
 pub use load::{LoadedScene, Source, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};
 pub use material::{BuiltLaw, Law, LawError, Material};
-pub use motion::{Interpolation, Load, Motion, Prescribed, Rotation, Table};
+pub use motion::{Load, Motion, Prescribed, Rotation, Table};
 pub use overrides::{Override, near_names};
 pub use paths::field_paths;
 pub use request::{FieldsEvery, Output, Plot, Probe, Quantity};
-pub use time::{ContactLevel, Inertia, MassKind, Rayleigh, Solver, Time};
+pub use time::{MassKind, Solver, Time};
+
+// Choices and shapes that the libraries name; their feature `serde` reads them.
+pub use contact_bipotential::rcc::{Healing, Reference, Update};
+pub use fe_core::{Dilatation, GridAxis, GridPiece, Interpolation, Pole};
+pub use nscd::{ContactLevel, Inertia, Rayleigh};
 
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};

@@ -4,6 +4,7 @@ use crate::error::ParameterError;
 
 /// Whether broken bonds form again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Healing {
     /// `beta` rises again in contact \[Hu2022\].
     #[default]
@@ -14,6 +15,7 @@ pub enum Healing {
 
 /// What the tangential separation is measured from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Reference {
     /// The place of bonding; forgotten when the pair parts with a broken bond.
     #[default]
@@ -24,6 +26,7 @@ pub enum Reference {
 
 /// How `beta` and the bond force are integrated over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Update {
     /// Exact for a constant `k`, second order in `beta`, stiffly accurate; the force is that of the end of the step.
     #[default]

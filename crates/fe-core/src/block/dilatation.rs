@@ -4,6 +4,7 @@ use crate::element::Element;
 
 /// The change of volume that the law of an element sees.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Dilatation {
     /// `J = det F` of each quadrature point. As `nu -> 1/2` each point demands `J = 1`, which is more than the
     /// displacements of most elements can satisfy: they lock.

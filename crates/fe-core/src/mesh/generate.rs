@@ -26,6 +26,7 @@ use crate::vector::{dot, minus, norm, unit};
 
 /// Where the dome of a half body points along its last axis: y in the plane, z in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Pole {
     /// Towards the positive axis.
     Up,

@@ -2,7 +2,7 @@
 
 use fe_core::{
     AnnulusMesh, BoxMesh, CellKind, DiscMesh, GridMesh, HalfBallMesh, HalfDiscMesh, Mesh,
-    MeshError, Pole, QuarterDiscMesh, RectangleMesh, Symmetry,
+    MeshError, QuarterDiscMesh, RectangleMesh, Symmetry,
 };
 
 use crate::spec::{self, LoadedScene, SceneError};
@@ -34,7 +34,7 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             crown,
         } => {
             let grid = GridMesh {
-                axes: [x, y].map(spec::Axis::grid_axis).into(),
+                axes: vec![x.clone(), y.clone()],
                 refine,
                 kind: plane_kind(element),
             };
@@ -51,7 +51,7 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             crown,
         } => {
             let grid = GridMesh {
-                axes: [x, y, z].map(spec::Axis::grid_axis).into(),
+                axes: vec![x.clone(), y.clone(), z.clone()],
                 refine,
                 kind: solid_kind(element),
             };
@@ -78,13 +78,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             center,
             radius,
             cells,
-            pole: side,
+            pole,
             element,
         } => HalfBallMesh {
             center,
             radius,
             cells: fine(cells),
-            pole: pole(side),
+            pole,
             kind: solid_kind(element),
         }
         .generate(name),
@@ -118,13 +118,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             center,
             radius,
             cells,
-            pole: side,
+            pole,
             element,
         } => HalfDiscMesh {
             center,
             radius,
             cells: fine(cells),
-            pole: pole(side),
+            pole,
             kind: plane_kind(element),
         }
         .generate(name),
@@ -132,13 +132,13 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             center,
             radius,
             cells,
-            pole: side,
+            pole,
             element,
         } => QuarterDiscMesh {
             center,
             radius,
             cells: fine(cells),
-            pole: pole(side),
+            pole,
             kind: plane_kind(element),
         }
         .generate(name),
@@ -158,13 +158,6 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             kind: plane_kind(element),
         }
         .generate(name),
-    }
-}
-
-fn pole(side: spec::Pole) -> Pole {
-    match side {
-        spec::Pole::Up => Pole::Up,
-        spec::Pole::Down => Pole::Down,
     }
 }
 

@@ -1,8 +1,7 @@
 //! Bodies and their meshes.
 
+use fe_core::{Dilatation, GridAxis, Pole};
 use serde::{Deserialize, Serialize};
-
-use super::Axis;
 
 /// One deformable body: a mesh of one material.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -29,17 +28,6 @@ impl Body {
         let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
         std::array::from_fn(|c| self.velocity[c] + turn((c + 1) % 3, (c + 2) % 3))
     }
-}
-
-/// The change of volume that the law of an element sees.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Dilatation {
-    /// That of each quadrature point. Locks as nu tends to .5.
-    #[default]
-    Pointwise,
-    /// Its projection onto few functions of each element: their mean for linear ones. Does not lock. Not for Tri3 and Tet4.
-    Projected,
 }
 
 /// What the third direction of a plane scene is like.
@@ -104,9 +92,9 @@ pub enum Mesh {
     /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
     Grid {
         /// Lines along x.
-        x: Axis,
+        x: GridAxis,
         /// Lines along y.
-        y: Axis,
+        y: GridAxis,
         /// Element.
         #[serde(default)]
         element: PlaneElement,
@@ -117,11 +105,11 @@ pub enum Mesh {
     /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
     SolidGrid {
         /// Lines along x.
-        x: Axis,
+        x: GridAxis,
         /// Lines along y.
-        y: Axis,
+        y: GridAxis,
         /// Lines along z.
-        z: Axis,
+        z: GridAxis,
         /// Element.
         #[serde(default)]
         element: Element,
@@ -227,16 +215,6 @@ pub enum PlaneElement {
     Tri6,
 }
 
-/// Where the dome of a half body points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Pole {
-    /// Towards +y in the plane, +z in space.
-    Up,
-    /// Towards -y in the plane, -z in space.
-    Down,
-}
-
 /// Counts of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MeshSize {
@@ -261,7 +239,7 @@ impl Mesh {
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
         let half = |n: usize| (0.5 * fine(n)).ceil();
-        let lines = |axis: &Axis| axis.cells() * refine as f64;
+        let lines = |axis: &GridAxis| axis.cells().map_or(0.0, |cells| fine(cells));
         let (corners, cells) = match self {
             Mesh::Box { cells, .. } => lattice(&cells.map(fine)),
             Mesh::SolidGrid { x, y, z, .. } => lattice(&[x, y, z].map(lines)),

@@ -1,5 +1,6 @@
 //! Contact interfaces.
 
+use contact_bipotential::rcc::{Healing, Reference, Update};
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
@@ -92,39 +93,6 @@ impl Stiffness {
             Stiffness::Pair(values) => values,
         }
     }
-}
-
-/// Whether broken bonds come back.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Healing {
-    /// They do while the surfaces touch.
-    #[default]
-    Recoverable,
-    /// Never.
-    Irreversible,
-}
-
-/// What the tangential separation of bonds is measured from.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Reference {
-    /// Where the pair met; anew when a broken bond has opened.
-    #[default]
-    Reset,
-    /// It follows as new bonds form, which are not stretched.
-    Ageing,
-}
-
-/// How the intensity of bonds advances in a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Update {
-    /// Exact for a constant separation, second order otherwise.
-    #[default]
-    SecondOrder,
-    /// The energy of bonds balances exactly in every step.
-    EnergyConsistent,
 }
 
 /// The master side of an interface. A rigid shape is free space outside. In a plane scene its section at z = 0 counts; in an

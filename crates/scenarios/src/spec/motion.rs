@@ -1,7 +1,6 @@
 //! What changes with time: tables, prescribed motions, loads.
 
-use std::fmt;
-
+use fe_core::Interpolation;
 use ron::value::RawValue;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
@@ -13,15 +12,6 @@ pub enum Table {
     Constant(f64),
     /// Points joined as the interpolation says.
     Points(Interpolation, Vec<(f64, f64)>),
-}
-
-/// How a table joins its points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Interpolation {
-    /// Straight lines.
-    Linear,
-    /// Smooth steps: zero slope at every point, monotone between two.
-    Smooth,
 }
 
 impl Default for Table {
@@ -181,13 +171,4 @@ pub enum Load {
 
 fn full() -> Table {
     Table::Constant(1.0)
-}
-
-impl fmt::Display for Interpolation {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Interpolation::Linear => "Linear",
-            Interpolation::Smooth => "Smooth",
-        })
-    }
 }

@@ -1,5 +1,6 @@
 //! Time stepping, damping, mass and solver limits.
 
+use nscd::{ContactLevel, Inertia};
 use serde::{Deserialize, Serialize};
 
 /// Duration, step and scheme [Feng2007, eq. 38-41].
@@ -31,28 +32,6 @@ fn half() -> f64 {
     0.5
 }
 
-/// Level of the contact law.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum ContactLevel {
-    /// No penetration at the end of the step (the papers' choice).
-    #[default]
-    Position,
-    /// Velocity after the step against the velocity before it, with restitution (Moreau-Jean).
-    Velocity,
-}
-
-/// Inertia of the bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub enum Inertia {
-    /// Masses count.
-    #[default]
-    Dynamic,
-    /// A sequence of equilibria: no mass, no velocity.
-    QuasiStatic,
-}
-
 /// Mass matrix.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,18 +41,6 @@ pub enum MassKind {
     Consistent,
     /// Row sums on the diagonal.
     Lumped,
-}
-
-/// Damping matrix `A = mass M + stiffness K`, K at the reference state.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Rayleigh {
-    /// Factor of the mass matrix \[1/s\].
-    #[serde(default)]
-    pub mass: f64,
-    /// Factor of the stiffness matrix \[s\].
-    #[serde(default)]
-    pub stiffness: f64,
 }
 
 /// Tolerances and limits. What is absent is the solver's own default.

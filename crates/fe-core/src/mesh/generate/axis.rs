@@ -21,6 +21,11 @@ use crate::error::MeshError;
 /// # Ok::<(), fe_core::MeshError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct GridAxis {
     /// Where the first piece begins \[m\].
     pub from: f64,
@@ -30,6 +35,11 @@ pub struct GridAxis {
 
 /// A part of an axis, from the end of the part before.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub enum GridPiece {
     /// A given number of cells.
     Cells {
@@ -38,6 +48,7 @@ pub enum GridPiece {
         /// Number of cells, at least 1.
         cells: usize,
         /// Size of the last cell over that of the first \[-\]; 1 is uniform.
+        #[cfg_attr(feature = "serde", serde(default = "uniform"))]
         grading: f64,
     },
     /// Cells that continue those of the piece before: each is larger than its neighbour by the same ratio, which is the
@@ -48,6 +59,12 @@ pub enum GridPiece {
         /// Bound on the size of a cell over that of the one before \[-\], at least 1.
         growth: f64,
     },
+}
+
+/// The grading of a piece that names none \[-\].
+#[cfg(feature = "serde")]
+fn uniform() -> f64 {
+    1.0
 }
 
 impl GridPiece {

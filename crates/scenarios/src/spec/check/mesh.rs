@@ -1,7 +1,7 @@
 //! Meshes of bodies.
 
 use super::{Checker, MAX_GRADING, MAX_NODES};
-use crate::spec::{Axis, Element, Mesh, Piece};
+use crate::spec::{Element, GridAxis, GridPiece, Mesh};
 
 impl Checker<'_> {
     pub(super) fn mesh(&mut self, mesh: &Mesh, path: &str) {
@@ -102,18 +102,18 @@ impl Checker<'_> {
         }
     }
 
-    fn axis(&mut self, axis: &Axis, path: &str) {
+    fn axis(&mut self, axis: &GridAxis, path: &str) {
         self.finite(&[axis.from], &format!("{path}.from"));
         let path = format!("{path}.pieces");
         self.require(!axis.pieces.is_empty(), &path, "must hold a piece");
-        let ends = axis.grid_axis().pieces;
-        let way = ends
+        let way = axis
+            .pieces
             .first()
             .map_or(1.0, |piece| (piece.to() - axis.from).signum());
         let mut from = axis.from;
         for (i, piece) in axis.pieces.iter().enumerate() {
             let path = format!("{path}.{i}");
-            let to = ends[i].to();
+            let to = piece.to();
             let ahead = to.is_finite() && way * (to - from) > 0.0;
             let message = format!(
                 "must differ from the end of the piece before, {from} [m], and all pieces must go the same way"
@@ -121,11 +121,11 @@ impl Checker<'_> {
             self.require(ahead, &format!("{path}.to"), message);
             from = to;
             match *piece {
-                Piece::Cells { cells, grading, .. } => {
+                GridPiece::Cells { cells, grading, .. } => {
                     self.cells(cells, 1, &format!("{path}.cells"));
                     self.grading(grading, &format!("{path}.grading"));
                 }
-                Piece::Growing { growth, .. } => {
+                GridPiece::Growing { growth, .. } => {
                     self.require(
                         (1.0..=MAX_GRADING).contains(&growth),
                         &format!("{path}.growth"),

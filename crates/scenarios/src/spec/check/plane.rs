@@ -181,7 +181,7 @@ fn is_zero(table: &Table) -> bool {
 fn leftmost(mesh: &Mesh) -> f64 {
     match mesh {
         Mesh::Rectangle { min, .. } => min[0],
-        Mesh::Grid { x, .. } => x.min(),
+        Mesh::Grid { x, .. } => x.pieces.iter().map(|p| p.to()).fold(x.from, f64::min),
         Mesh::Disc { center, radius, .. } | Mesh::HalfDisc { center, radius, .. } => {
             center[0] - radius
         }
