@@ -16,13 +16,14 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use fe_core::block::tangent_len;
 use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, ThreeE};
+use nalgebra::Vector3;
 use nscd::{NoClock, Stepper};
 
 fn mesh() -> (Mesh, Vec<f64>) {
     let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [8; 3])
         .generate("box")
         .unwrap();
-    let wave = |x: &[f64; 3]| {
+    let wave = |x: &Vector3<f64>| {
         [
             0.05 * (x[1] * 3.0).sin(),
             0.04 * (x[2] * 2.0).cos(),

@@ -2,6 +2,7 @@
 //!
 //! ```
 //! use fe_core::{BoxMesh, CellKind, Solid, Tet4, conformance, solid_block};
+//! use fe_core::nalgebra::Matrix3;
 //! use hyperelastic::BlatzKo;
 //!
 //! conformance::check_element::<Tet4, 4>()?;
@@ -12,7 +13,8 @@
 //! conformance::check_block(block.as_ref(), &mesh.points, &u)?;
 //!
 //! let solid = Solid::new(mesh, vec![block])?;
-//! conformance::check_patch(&solid, &[[0.1, 0.2, 0.0], [0.0, -0.1, 0.1], [0.0, 0.0, 0.3]])?;
+//! let h = Matrix3::new(0.1, 0.2, 0.0, 0.0, -0.1, 0.1, 0.0, 0.0, 0.3);
+//! conformance::check_patch(&solid, &h)?;
 //! conformance::check_mass(&solid, 1.0)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -30,7 +32,7 @@ pub use element::check_element;
 pub use solid::{check_mass, check_patch};
 
 /// Allowed relative difference of what agrees up to round-off.
-const ROUND_OFF: f64 = 1e-11;
+const AGREEMENT: f64 = 1e-11;
 /// Allowed relative difference from central differences.
 const DIFFERENCES: f64 = 1e-6;
 

@@ -2,6 +2,8 @@
 //!
 //! Vectors are flat, `dim * node + component`. Nodes must exist; `check` says if they do.
 
+use nalgebra::Vector3;
+
 use crate::error::FeError;
 use crate::mass::MassMatrix;
 use crate::mesh::{Facet, Mesh};
@@ -61,7 +63,7 @@ impl Dirichlet {
         self.set(mesh, v, |x| self.motion.velocity(x, t));
     }
 
-    fn set(&self, mesh: &Mesh, target: &mut [f64], value: impl Fn([f64; 3]) -> [f64; 3]) {
+    fn set(&self, mesh: &Mesh, target: &mut [f64], value: impl Fn(Vector3<f64>) -> Vector3<f64>) {
         for &node in &self.nodes {
             let value = value(mesh.points[node as usize]);
             for i in (0..mesh.dim).filter(|&i| self.components[i]) {
@@ -77,7 +79,7 @@ pub struct DeadTraction {
     /// Facets it acts on.
     pub facets: Vec<Facet>,
     /// Force per reference area \[Pa\].
-    pub traction: [f64; 3],
+    pub traction: Vector3<f64>,
     /// Factor over time \[-\].
     pub factor: Table,
 }
@@ -107,7 +109,7 @@ impl DeadTraction {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gravity {
     /// Acceleration \[m/s^2\].
-    pub acceleration: [f64; 3],
+    pub acceleration: Vector3<f64>,
     /// Factor over time \[-\].
     pub factor: Table,
 }
@@ -119,7 +121,7 @@ impl Gravity {
     /// [`FeError::Parameter`] if the acceleration is not finite.
     pub fn nodal_forces(&self, mass: &MassMatrix) -> Result<Vec<f64>, FeError> {
         check_finite("gravity", "acceleration [m/s^2]", &self.acceleration)?;
-        let components = &self.acceleration[..mass.dim()];
+        let components = &self.acceleration.as_slice()[..mass.dim()];
         let weight = |m: f64| components.iter().map(move |g| m * g);
         Ok(mass.row_sums().into_iter().flat_map(weight).collect())
     }
@@ -137,7 +139,7 @@ fn check_nodes<'a>(mut nodes: impl Iterator<Item = &'a u32>, mesh: &Mesh) -> Res
     }
 }
 
-fn check_finite(place: &str, what: &'static str, values: &[f64; 3]) -> Result<(), FeError> {
+fn check_finite(place: &str, what: &'static str, values: &Vector3<f64>) -> Result<(), FeError> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(()),
         Some(&value) => Err(FeError::Parameter {

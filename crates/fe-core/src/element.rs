@@ -22,6 +22,8 @@ pub use tet10::Tet10;
 pub use tri3::Tri3;
 pub use tri6::Tri6;
 
+use nalgebra::Vector3;
+
 use crate::mesh::CellKind;
 use crate::quadrature::QuadraturePoint;
 
@@ -65,8 +67,8 @@ pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
 /// Coordinates of an element's nodes \[m\].
 ///
 /// Indices must be in range, which [`crate::Mesh::validate`] ensures.
-pub fn corner_points<const N: usize>(points: &[[f64; 3]], cell: &[u32]) -> [[f64; 3]; N] {
-    std::array::from_fn(|a| points[cell[a] as usize])
+pub fn corner_points<const N: usize>(points: &[Vector3<f64>], cell: &[u32]) -> [[f64; 3]; N] {
+    std::array::from_fn(|a| points[cell[a] as usize].into())
 }
 
 /// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, stored `[i][j]`. In the plane the third
@@ -115,7 +117,7 @@ where
 
 /// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3; m^2 in the plane\].
 pub(crate) fn bad_jacobian<E, const N: usize>(
-    points: &[[f64; 3]],
+    points: &[Vector3<f64>],
     cell: &[u32],
 ) -> Option<(usize, f64)>
 where

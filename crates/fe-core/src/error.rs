@@ -1,5 +1,7 @@
 //! Errors of this crate: what is wrong, where, and what to try.
 
+use nalgebra::Vector3;
+
 use crate::mesh::{CellKind, Symmetry};
 
 /// What makes a mesh unusable.
@@ -39,12 +41,12 @@ pub enum MeshError {
         what: &'static str,
     },
     /// A coordinate is NaN or infinite.
-    #[error("point {node} has a coordinate that is not finite: {point:?}")]
+    #[error("point {node} has a coordinate that is not finite: {:?}", point.as_slice())]
     PointNotFinite {
         /// Index of the point.
         node: usize,
         /// Its coordinates \[m\].
-        point: [f64; 3],
+        point: Vector3<f64>,
     },
     /// A block of cells of another dimension than the mesh.
     #[error("block `{block}` has {kind:?} cells, which do not fit a mesh of dimension {dim}")]

@@ -8,6 +8,7 @@
 //! Plane problems ([`Symmetry`]) have two unknowns a node: plane strain, where forces, masses and energies are those of
 //! one metre of thickness, and axisymmetric, where they are those of the whole ring.
 //!
+//! Points and vectors are [`nalgebra::Vector3`]; in the plane their third component is zero.
 //! Unknowns are displacements \[m\], stored flat: component `i` of node `a` is entry `dim * a + i`.
 //! Second-order symmetric tensors are stored as 11 22 33 12 13 23.
 
@@ -26,7 +27,8 @@ pub mod solid;
 pub mod surface;
 
 mod parallel;
-mod vector;
+
+pub use nalgebra;
 
 pub use block::{Block, Dilatation, ElementState, SolidBlock, solid_block, solid_block_with};
 pub use constraint::{DeadTraction, Dirichlet, Gravity};
@@ -42,3 +44,7 @@ pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};
 pub use solid::{ElementWorkspace, Solid};
 pub use surface::Surface;
+
+/// Relative difference \[-\] below which two numbers are the same: 64 units in the last place. A sum of a few dozen terms,
+/// or a chain of as many operations, stays within it; what differs by more differs for another reason than rounding.
+pub const ROUND_OFF: f64 = 64.0 * f64::EPSILON;

@@ -8,6 +8,8 @@ mod quadratic;
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+
 pub use facet::{Facet, FacetKind};
 pub use kind::CellKind;
 
@@ -87,7 +89,7 @@ pub struct Mesh {
     /// What the plane stands for; [`Symmetry::None`] in space.
     pub symmetry: Symmetry,
     /// Reference coordinates \[m\].
-    pub points: Vec<[f64; 3]>,
+    pub points: Vec<Vector3<f64>>,
     /// Blocks of cells.
     pub blocks: Vec<CellBlock>,
     /// Named node lists, sorted, without repeats.
@@ -203,7 +205,7 @@ impl Mesh {
         if self.blocks.iter().all(|block| block.cells.is_empty()) {
             return Err(MeshError::Empty { what: "cells" });
         }
-        let finite = |point: &[f64; 3]| point.iter().all(|x| x.is_finite());
+        let finite = |point: &Vector3<f64>| point.iter().all(|x| x.is_finite());
         if let Some(node) = self.points.iter().position(|point| !finite(point)) {
             return Err(MeshError::PointNotFinite {
                 node,

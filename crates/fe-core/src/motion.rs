@@ -1,7 +1,8 @@
 //! Prescribed motion: tables of time, translation and rotation about an axis.
 
+use nalgebra::Vector3;
+
 use crate::error::FeError;
-use crate::vector::{cross, dot};
 
 /// How a table is read between its entries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -121,8 +122,8 @@ impl Table {
 /// Rotation about an axis fixed in the reference configuration, by the right-hand rule.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rotation {
-    point: [f64; 3],
-    axis: [f64; 3],
+    point: Vector3<f64>,
+    axis: Vector3<f64>,
     angle: Table,
 }
 
@@ -131,7 +132,12 @@ impl Rotation {
     ///
     /// # Errors
     /// [`FeError::Parameter`] if the axis has no direction or the point is not finite.
-    pub fn new(point: [f64; 3], axis: [f64; 3], angle: Table) -> Result<Rotation, FeError> {
+    pub fn new(
+        point: impl Into<Vector3<f64>>,
+        axis: impl Into<Vector3<f64>>,
+        angle: Table,
+    ) -> Result<Rotation, FeError> {
+        let (point, axis) = (point.into(), axis.into());
         let refuse = |what, value, bound| {
             Err(FeError::Parameter {
                 place: "rotation".to_owned(),
@@ -145,25 +151,25 @@ impl Rotation {
         }
         // Scaled first: the squares of a tiny or huge axis would leave the range of f64.
         let largest = axis.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let scaled = axis.map(|x| x / largest);
-        let length = dot(&scaled, &scaled).sqrt();
+        let scaled = axis / largest;
+        let length = scaled.norm();
         if !(length.is_finite() && length > 0.0) {
             return refuse("length of the axis", largest, "must be positive and finite");
         }
         Ok(Rotation {
             point,
-            axis: scaled.map(|x| x / length),
+            axis: scaled / length,
             angle,
         })
     }
 
     /// A point on the axis \[m\].
-    pub fn point(&self) -> [f64; 3] {
+    pub fn point(&self) -> Vector3<f64> {
         self.point
     }
 
     /// Unit vector along the axis.
-    pub fn axis(&self) -> [f64; 3] {
+    pub fn axis(&self) -> Vector3<f64> {
         self.axis
     }
 
@@ -173,11 +179,11 @@ impl Rotation {
     }
 
     /// `R y - y` for an angle (Rodrigues), without cancellation for small angles.
-    fn change(&self, y: &[f64; 3], angle: f64) -> [f64; 3] {
+    fn change(&self, y: &Vector3<f64>, angle: f64) -> Vector3<f64> {
         let (sin, sin_half) = (angle.sin(), (0.5 * angle).sin());
-        let turned = cross(&self.axis, y);
-        let inward = cross(&self.axis, &turned);
-        std::array::from_fn(|i| sin * turned[i] + 2.0 * sin_half * sin_half * inward[i])
+        let turned = self.axis.cross(y);
+        let inward = self.axis.cross(&turned);
+        sin * turned + 2.0 * sin_half * sin_half * inward
     }
 }
 
@@ -214,52 +220,44 @@ impl Motion {
     }
 
     /// Displacement \[m\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference.
-    pub fn displacement(&self, x_ref: [f64; 3], t: f64) -> [f64; 3] {
+    pub fn displacement(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
         let moved = self.translation_at(t);
-        let turned = self.rotation.as_ref().map_or([0.0; 3], |rotation| {
-            let arm = std::array::from_fn(|i| x_ref[i] - rotation.point[i]);
-            rotation.change(&arm, rotation.angle.value(t))
-        });
-        std::array::from_fn(|i| turned[i] + moved[i])
+        self.rotation.as_ref().map_or(moved, |rotation| {
+            let arm = x_ref - rotation.point;
+            rotation.change(&arm, rotation.angle.value(t)) + moved
+        })
     }
 
     /// Velocity \[m/s\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference. Where a
     /// table has a kink, the velocity just after it.
-    pub fn velocity(&self, x_ref: [f64; 3], t: f64) -> [f64; 3] {
-        let sliding: [f64; 3] = std::array::from_fn(|i| self.translation[i].rate(t));
-        let turning = self.rotation.as_ref().map_or([0.0; 3], |rotation| {
-            let arm: [f64; 3] = std::array::from_fn(|i| x_ref[i] - rotation.point[i]);
-            let change = rotation.change(&arm, rotation.angle.value(t));
-            let turned = std::array::from_fn(|i| arm[i] + change[i]);
-            let rate = rotation.angle.rate(t);
-            cross(&rotation.axis, &turned).map(|v| rate * v)
-        });
-        std::array::from_fn(|i| sliding[i] + turning[i])
+    pub fn velocity(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
+        let sliding = Vector3::from_fn(|i, _| self.translation[i].rate(t));
+        self.rotation.as_ref().map_or(sliding, |rotation| {
+            let arm = x_ref - rotation.point;
+            let turned = arm + rotation.change(&arm, rotation.angle.value(t));
+            sliding + rotation.angle.rate(t) * rotation.axis.cross(&turned)
+        })
     }
 
     /// Position \[m\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference.
-    pub fn position(&self, x_ref: [f64; 3], t: f64) -> [f64; 3] {
-        let d = self.displacement(x_ref, t);
-        std::array::from_fn(|i| x_ref[i] + d[i])
+    pub fn position(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
+        x_ref + self.displacement(x_ref, t)
     }
 
     /// Reference position \[m\] of the material point that is at `x` \[m\] at time `t` \[s\]: undoes
     /// [`Motion::position`].
-    pub fn pull_back(&self, x: [f64; 3], t: f64) -> [f64; 3] {
-        let moved = self.translation_at(t);
-        let back: [f64; 3] = std::array::from_fn(|i| x[i] - moved[i]);
+    pub fn pull_back(&self, x: Vector3<f64>, t: f64) -> Vector3<f64> {
+        let back = x - self.translation_at(t);
         self.rotation.as_ref().map_or(back, |rotation| {
-            let arm = std::array::from_fn(|i| back[i] - rotation.point[i]);
-            let change = rotation.change(&arm, -rotation.angle.value(t));
-            std::array::from_fn(|i| back[i] + change[i])
+            let arm = back - rotation.point;
+            back + rotation.change(&arm, -rotation.angle.value(t))
         })
     }
 
     /// A direction fixed to the moving body (normal, axis) at time `t` \[s\].
-    pub fn rotate(&self, direction: [f64; 3], t: f64) -> [f64; 3] {
+    pub fn rotate(&self, direction: Vector3<f64>, t: f64) -> Vector3<f64> {
         self.rotation.as_ref().map_or(direction, |rotation| {
-            let change = rotation.change(&direction, rotation.angle.value(t));
-            std::array::from_fn(|i| direction[i] + change[i])
+            direction + rotation.change(&direction, rotation.angle.value(t))
         })
     }
 
@@ -282,8 +280,8 @@ impl Motion {
         times
     }
 
-    fn translation_at(&self, t: f64) -> [f64; 3] {
-        std::array::from_fn(|i| self.translation[i].value(t))
+    fn translation_at(&self, t: f64) -> Vector3<f64> {
+        Vector3::from_fn(|i, _| self.translation[i].value(t))
     }
 }
 
@@ -307,12 +305,12 @@ mod tests {
         prop_oneof![table(Interpolation::Linear), table(Interpolation::Smooth)]
     }
 
-    fn vector() -> impl Strategy<Value = [f64; 3]> {
-        prop::array::uniform3(-2.0..2.0_f64)
+    fn vector() -> impl Strategy<Value = Vector3<f64>> {
+        prop::array::uniform3(-2.0..2.0_f64).prop_map(Vector3::from)
     }
 
     fn motion() -> impl Strategy<Value = Motion> {
-        let axis = vector().prop_filter("axis", |a| dot(a, a) > 0.1);
+        let axis = vector().prop_filter("axis", |a| a.norm_squared() > 0.1);
         let smooth = || table(Interpolation::Smooth);
         (prop::array::uniform3(smooth()), vector(), axis, smooth()).prop_map(
             |(translation, point, axis, angle)| Motion {
@@ -343,7 +341,7 @@ mod tests {
             translation: [Table::zero(), Table::zero(), ramp(5.0)],
             rotation: Some(Rotation::new([1.0, 0.0, 0.0], [0.0, 0.0, 9.0], quarter).unwrap()),
         };
-        let x = motion.position([3.0, 0.0, 1.0], 1.0);
+        let x = motion.position(Vector3::new(3.0, 0.0, 1.0), 1.0);
         let expected = [1.0, 2.0, 6.0];
         for i in 0..3 {
             assert!((x[i] - expected[i]).abs() < 1e-15);
@@ -422,16 +420,12 @@ mod tests {
         fn motion_is_rigid_and_pull_back_undoes_it(
             motion in motion(), x in vector(), y in vector(), t in -1.0..5.0_f64,
         ) {
-            let distance = |a: [f64; 3], b: [f64; 3]| {
-                let d: [f64; 3] = std::array::from_fn(|i| a[i] - b[i]);
-                dot(&d, &d).sqrt()
-            };
+            let distance = |a: Vector3<f64>, b: Vector3<f64>| (a - b).norm();
             let (px, py) = (motion.position(x, t), motion.position(y, t));
             prop_assert!((distance(px, py) - distance(x, y)).abs() < 1e-12);
             prop_assert!(distance(motion.pull_back(px, t), x) < 1e-12);
-            let arm = std::array::from_fn(|i| y[i] - x[i]);
-            let turned = motion.rotate(arm, t);
-            prop_assert!(distance(turned, std::array::from_fn(|i| py[i] - px[i])) < 1e-12);
+            let turned = motion.rotate(y - x, t);
+            prop_assert!(distance(turned, py - px) < 1e-12);
         }
     }
 }

@@ -3,9 +3,10 @@
 mod shares;
 mod winding;
 
+use nalgebra::Vector3;
+
 use crate::error::FeError;
 use crate::mesh::{Facet, Mesh};
-use crate::vector::{cross, dot, minus, norm, unit};
 
 /// A part of the boundary of one or more bodies.
 ///
@@ -110,27 +111,25 @@ impl Surface {
     ///
     /// `positions` are current coordinates \[m\] of the whole mesh, flat, `dim * node + component`. A node
     /// whose facets cancel or have no area gets a zero vector.
-    pub fn vertex_normals(&self, positions: &[f64]) -> Vec<[f64; 3]> {
-        let mut normals = vec![[0.0; 3]; self.nodes.len()];
+    pub fn vertex_normals(&self, positions: &[f64]) -> Vec<Vector3<f64>> {
+        let mut normals = vec![Vector3::zeros(); self.nodes.len()];
         for (facet, corners) in self.facets.iter().zip(&self.corners) {
             let count = facet.nodes().len();
             let x = self.facet_positions(facet, positions);
             for m in 0..count {
-                let weighted = corner_normal(&x[..count], m);
-                let normal = &mut normals[corners[m] as usize];
-                (0..3).for_each(|i| normal[i] += weighted[i]);
+                normals[corners[m] as usize] += corner_normal(&x[..count], m);
             }
         }
-        normals.iter_mut().for_each(|n| *n = unit(n));
+        normals.iter_mut().for_each(|n| *n = unit(*n));
         normals
     }
 
     /// Current coordinates of a facet's nodes \[m\]; unused entries are zero.
-    fn facet_positions(&self, facet: &Facet, positions: &[f64]) -> [[f64; 3]; 4] {
-        let mut x = [[0.0; 3]; 4];
+    fn facet_positions(&self, facet: &Facet, positions: &[f64]) -> [Vector3<f64>; 4] {
+        let mut x = [Vector3::zeros(); 4];
         for (x, &node) in x.iter_mut().zip(facet.nodes()) {
             let start = self.dim * node as usize;
-            x[..self.dim].copy_from_slice(&positions[start..start + self.dim]);
+            x.as_mut_slice()[..self.dim].copy_from_slice(&positions[start..start + self.dim]);
         }
         x
     }
@@ -138,7 +137,7 @@ impl Surface {
 
 /// Reference positions displaced by `u` \[m\]: flat, `dim * node + component`, as
 /// [`Surface::vertex_normals`] wants them.
-pub fn current_positions(points: &[[f64; 3]], dim: usize, u: &[f64], positions: &mut Vec<f64>) {
+pub fn current_positions(points: &[Vector3<f64>], dim: usize, u: &[f64], positions: &mut Vec<f64>) {
     positions.clear();
     let moved = points.iter().zip(u.chunks_exact(dim));
     positions.extend(moved.flat_map(|(x, u)| (0..dim).map(|i| x[i] + u[i])));
@@ -178,15 +177,25 @@ fn facets_around_nodes(corners: &Vec<[u32; 4]>, nodes: usize) -> (Vec<u32>, Vec<
 }
 
 /// Outward normal at corner `m` of a facet, as long as the angle there (1 for an edge).
-fn corner_normal(x: &[[f64; 3]], m: usize) -> [f64; 3] {
+fn corner_normal(x: &[Vector3<f64>], m: usize) -> Vector3<f64> {
     let count = x.len();
     if count == 2 {
-        let d = minus(&x[1], &x[0]);
-        return unit(&[d[1], -d[0], 0.0]);
+        let d = x[1] - x[0];
+        return unit(Vector3::new(d.y, -d.x, 0.0));
     }
-    let to_next = minus(&x[(m + 1) % count], &x[m]);
-    let to_previous = minus(&x[(m + count - 1) % count], &x[m]);
-    let normal = cross(&to_next, &to_previous);
-    let angle = norm(&normal).atan2(dot(&to_next, &to_previous));
-    unit(&normal).map(|n| angle * n)
+    let to_next = x[(m + 1) % count] - x[m];
+    let to_previous = x[(m + count - 1) % count] - x[m];
+    let normal = to_next.cross(&to_previous);
+    let angle = normal.norm().atan2(to_next.dot(&to_previous));
+    angle * unit(normal)
+}
+
+/// Unit vector, or zero for a vector without direction.
+fn unit(v: Vector3<f64>) -> Vector3<f64> {
+    let length = v.norm();
+    if length > 0.0 {
+        v / length
+    } else {
+        Vector3::zeros()
+    }
 }

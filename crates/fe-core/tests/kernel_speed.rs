@@ -8,6 +8,7 @@ use std::time::Instant;
 use fe_core::block::{Block, tangent_len};
 use fe_core::{BoxMesh, CellKind, RectangleMesh, Solid, SymmetricPattern, Symmetry, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff};
+use nalgebra::Vector3;
 
 const REPEATS: usize = 200;
 
@@ -26,7 +27,7 @@ fn block<M: Material>(kind: CellKind, material: M) -> (Box<dyn Block>, Vec<f64>)
         .with_kind(kind)
         .generate("box")
         .unwrap();
-    let wave = |x: &[f64; 3]| {
+    let wave = |x: &Vector3<f64>| {
         [
             0.05 * (x[1] * 3.0).sin(),
             0.04 * (x[2] * 2.0).cos(),
@@ -47,7 +48,7 @@ fn plane_block<M: Material>(
         .generate("plate")
         .unwrap();
     mesh.symmetry = symmetry;
-    let wave = |x: &[f64; 3]| [0.05 * x[0] * (x[1] * 3.0).sin(), 0.04 * (x[0] * 2.0).cos()];
+    let wave = |x: &Vector3<f64>| [0.05 * x[0] * (x[1] * 3.0).sin(), 0.04 * (x[0] * 2.0).cos()];
     let u = mesh.points.iter().flat_map(wave).collect();
     (solid_block(&mesh, 0, material, 1.0).unwrap(), u)
 }

@@ -3,6 +3,7 @@
 use contact_bipotential::facet::closest_point;
 use contact_bipotential::{Contact, Master};
 use fe_core::{Facet, Surface};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::error::{NscdError, StepFailure};
@@ -130,7 +131,7 @@ impl Hull {
     fn inside(&self, x: &[f64], dim: usize, node: u32) -> Option<Inside> {
         let at = point(x, dim, node);
         let back = step_back(x, dim, at, self.cell(node)?);
-        let probe = std::array::from_fn(|c| at[c] + back[c]);
+        let probe = Vector3::from_fn(|c, _| at[c] + back[c]);
         if self.boundary.winding(x, probe) < 0.5 {
             return None;
         }

@@ -1,6 +1,7 @@
 //! Bodies that supports alone do not hold: some rigid motion is left to them.
 
 use fe_core::Symmetry;
+use nalgebra::Vector3;
 
 use crate::model::Model;
 
@@ -12,20 +13,15 @@ pub(crate) fn is_floating(model: &Model, nodes: &[u32], fixed: &[bool]) -> bool 
     let mesh = model.solid.mesh();
     let dim = model.solid.dim();
     let count = nodes.len().max(1) as f64;
-    let mut center = [0.0; 3];
-    for &n in nodes {
-        (0..3).for_each(|c| center[c] += mesh.points[n as usize][c] / count);
-    }
-    let arm =
-        |n: u32| -> [f64; 3] { std::array::from_fn(|c| mesh.points[n as usize][c] - center[c]) };
-    let size = nodes
-        .iter()
-        .flat_map(|&n| arm(n))
-        .fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
+    let places = nodes.iter().map(|&n| mesh.points[n as usize] / count);
+    let center: Vector3<f64> = places.sum();
+    let arm = |n: u32| mesh.points[n as usize] - center;
+    let size = nodes.iter().map(|&n| arm(n).amax());
+    let size = size.fold(f64::MIN_POSITIVE, f64::max);
     let mut rows = Vec::new();
     for &n in nodes {
         for c in (0..dim).filter(|&c| fixed[dim * n as usize + c]) {
-            rows.push(rigid_motions(mesh.symmetry, arm(n).map(|x| x / size), c));
+            rows.push(rigid_motions(mesh.symmetry, arm(n) / size, c));
         }
     }
     rank(rows) < rigid_count(mesh.symmetry)
@@ -40,7 +36,7 @@ fn rigid_count(symmetry: Symmetry) -> usize {
 }
 
 /// Component `c` of every rigid motion at the place `x`; those that do not exist are zero.
-fn rigid_motions(symmetry: Symmetry, x: [f64; 3], c: usize) -> [f64; 6] {
+fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; 6] {
     let mut row = [0.0; 6];
     match (symmetry, c) {
         (Symmetry::Axisymmetric, 0) => {}
@@ -87,9 +83,11 @@ mod tests {
     use super::*;
 
     fn rank_of(symmetry: Symmetry, held: &[([f64; 3], &[usize])]) -> usize {
-        let rows = held
-            .iter()
-            .flat_map(|(x, components)| components.iter().map(|&c| rigid_motions(symmetry, *x, c)));
+        let rows = held.iter().flat_map(|(x, components)| {
+            components
+                .iter()
+                .map(|&c| rigid_motions(symmetry, (*x).into(), c))
+        });
         rank(rows.collect())
     }
 

@@ -132,8 +132,9 @@ fn refuse_passing(
     let placed = obstacle.over_step(frame.now.time, frame.end());
     let motion = obstacle.motion();
     for &node in &interface.slave {
-        let from = motion.pull_back(point(start, dim, node), frame.now.time);
-        let (from, to) = (motion.position(from, frame.end()), point(end, dim, node));
+        let from = motion.pull_back(point(start, dim, node).into(), frame.now.time);
+        let from: [f64; 3] = motion.position(from, frame.end()).into();
+        let to = point(end, dim, node);
         let (a, b) = (placed.closest(from, 0.0), placed.closest(to, 0.0));
         let turn: f64 = (0..3).map(|c| a.normal[c] * b.normal[c]).sum();
         let inside = |k: i32| {

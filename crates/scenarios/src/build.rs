@@ -7,6 +7,7 @@ use fe_core::{
     Block, DeadTraction, Dilatation, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid,
     Surface, Table, solid_block_with,
 };
+use nalgebra::Vector3;
 use nscd::{Load, Model, Scheme, Settings, Span};
 
 use crate::spec::{self, BuiltLaw, LoadedScene, Scene, SceneError};
@@ -45,7 +46,7 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
     let mut velocity = vec![0.0; solid.dof_count()];
     for (k, body) in scene.bodies.values().enumerate() {
         for node in first_node[k]..first_node[k + 1] {
-            let start = body.velocity_at(solid.mesh().points[node]);
+            let start = body.velocity_at(solid.mesh().points[node].into());
             velocity[dim * node..dim * (node + 1)].copy_from_slice(&start[..dim]);
         }
     }
@@ -163,7 +164,7 @@ fn loads(
             spec::Load::Gravity(acceleration) => {
                 let factor = Table::constant(1.0);
                 let gravity = Gravity {
-                    acceleration: *acceleration,
+                    acceleration: (*acceleration).into(),
                     factor: factor.clone(),
                 };
                 let forces = gravity
@@ -183,7 +184,7 @@ fn loads(
                 let factor = table(factor).map_err(|e| refuse(e.to_string()))?;
                 let load = DeadTraction {
                     facets,
-                    traction: *traction,
+                    traction: (*traction).into(),
                     factor: factor.clone(),
                 };
                 let forces = load.nodal_forces(mesh).map_err(|e| refuse(e.to_string()))?;
@@ -316,7 +317,7 @@ const RIM_TOLERANCE: f64 = 1e-2;
 fn facet_size(surface: &Surface, mesh: &Mesh) -> f64 {
     let distance = |a: u32, b: u32| {
         let (a, b) = (mesh.points[a as usize], mesh.points[b as usize]);
-        (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+        (a - b).norm()
     };
     let pairs = surface.facets.iter().flat_map(|f| {
         f.nodes()
@@ -355,11 +356,7 @@ fn settings(scene: &Scene) -> Settings {
 fn probes(scene: &Scene, mesh: &Mesh, first_node: &[usize]) -> Vec<u32> {
     let nearest = |probe: &spec::Probe| {
         let body = scene.bodies.get_index_of(&probe.body).unwrap_or(0);
-        let distance = |n: &usize| {
-            (0..3)
-                .map(|i| (mesh.points[*n][i] - probe.node[i]).powi(2))
-                .sum::<f64>()
-        };
+        let distance = |n: &usize| (mesh.points[*n] - Vector3::from(probe.node)).norm_squared();
         let nodes = first_node[body]..first_node[body + 1];
         nodes
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))

@@ -1,5 +1,7 @@
 //! An elastic block that meets a rigid ball obliquely.
 
+use nalgebra::Vector3;
+
 use crate::closed_form::Oblique;
 use crate::{Case, Found, Ladder, Ran};
 
@@ -125,8 +127,9 @@ impl RigidMotion {
                 [sum[0] + p[0], sum[1] + p[2], sum[2] + moment]
             })
         };
-        let field =
-            |f: &dyn Fn(&[f64; 3]) -> [f64; 3]| -> Vec<f64> { points.iter().flat_map(f).collect() };
+        let field = |f: &dyn Fn(&Vector3<f64>) -> [f64; 3]| -> Vec<f64> {
+            points.iter().flat_map(f).collect()
+        };
         let mass = momenta(&field(&|_| [1.0, 0.0, 0.0]))[0];
         let inertia = momenta(&field(&|x| [x[2] - LEVER, 0.0, -x[0]]))[2];
         let [x, z, moment] = momenta(v);

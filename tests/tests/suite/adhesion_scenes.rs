@@ -1,5 +1,7 @@
 //! What the scenes with adhesion must show, on coarse meshes.
 
+use nalgebra::Vector3;
+
 use crate::common::{Run, Step, scene, try_run};
 
 /// A run that reached its end and closed its audit.
@@ -116,7 +118,7 @@ fn a_stiffer_wheel_bonds_alike_and_debonds_earlier() {
 /// Node of the lower face at `(x, y)` \[mm\].
 fn lower_node(run: &Run, x: f64, y: f64) -> usize {
     let points = &run.built.model.solid.mesh().points;
-    let distance = |p: &[f64; 3]| (p[0] - 1e-3 * x).hypot(p[1] - 1e-3 * y) + p[2].abs();
+    let distance = |p: &Vector3<f64>| (p[0] - 1e-3 * x).hypot(p[1] - 1e-3 * y) + p[2].abs();
     points.iter().position(|p| distance(p) < 1e-9).unwrap()
 }
 

@@ -163,7 +163,9 @@ impl Problem {
             cube.with_kind(kind).generate("body").unwrap()
         };
         mesh.symmetry = self.symmetry;
-        mesh.points.iter_mut().for_each(|x| *x = (self.shape)(*x));
+        mesh.points
+            .iter_mut()
+            .for_each(|x| *x = (self.shape)((*x).into()).into());
         mesh
     }
 

@@ -193,7 +193,7 @@ fn on_a_slope(angle: f64, end: f64) -> Run {
     let model = &mut built.model;
     let mut mesh = model.solid.mesh().clone();
     for x in &mut mesh.points {
-        *x = [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0], 0.0];
+        *x = [cos * x[0] + sin * x[1], cos * x[1] - sin * x[0], 0.0].into();
     }
     let elastic = ElasticConstants::from_young_poisson(1e11, 0.2).unwrap();
     let law = SaintVenantKirchhoff::new(elastic).unwrap();

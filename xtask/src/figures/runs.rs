@@ -68,7 +68,7 @@ impl Shown for Ran {
     }
 
     fn place(&self, probe: &str) -> Result<[f64; 3], String> {
-        Ok(self.built.model.solid.mesh().points[self.probed(probe)? as usize])
+        Ok(self.built.model.solid.mesh().points[self.probed(probe)? as usize].into())
     }
 }
 

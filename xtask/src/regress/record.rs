@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use ::tests::Ran;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::Findings;
@@ -208,7 +209,7 @@ impl Findings {
     }
 }
 
-fn size(points: &[[f64; 3]]) -> f64 {
+fn size(points: &[Vector3<f64>]) -> f64 {
     let extent = |i: usize| {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for x in points {

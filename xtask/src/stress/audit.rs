@@ -427,10 +427,7 @@ fn prescribed(model: &Model) -> Vec<bool> {
 /// Distances between the nodes of each element \[m\].
 fn edges(model: &Model) -> impl Iterator<Item = f64> + '_ {
     let points = &model.solid.mesh().points;
-    let distance = |a: u32, b: u32| {
-        let (a, b) = (points[a as usize], points[b as usize]);
-        (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt()
-    };
+    let distance = |a: u32, b: u32| (points[a as usize] - points[b as usize]).norm();
     let cells = model.solid.blocks().iter();
     let cells = cells.flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
     let pairs = cells.flat_map(|cell| {

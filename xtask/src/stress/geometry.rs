@@ -83,7 +83,7 @@ pub(super) fn deepest_on_the_way(
         };
         for &node in &interface.slave {
             let ends = [(before, t0), (after, t1)]
-                .map(|(x, t)| obstacle.motion().pull_back(x[node as usize], t));
+                .map(|(x, t)| obstacle.motion().pull_back(x[node as usize].into(), t));
             for k in 1..8 {
                 let s = f64::from(k) / 8.0;
                 let at = std::array::from_fn(|i| (1.0 - s) * ends[0][i] + s * ends[1][i]);
@@ -95,7 +95,7 @@ pub(super) fn deepest_on_the_way(
 }
 
 fn depth_in_shape(shape: &Shape, motion: &Motion, x: Point, time: f64) -> f64 {
-    -distance(shape, motion.pull_back(x, time))
+    -distance(shape, motion.pull_back(x.into(), time).into())
 }
 
 /// Signed distance of a point to a shape at its reference position \[m\].

@@ -25,7 +25,9 @@ pub fn material_axes(
     time: f64,
 ) -> [[f64; 3]; 3] {
     match (&interface.master, facet) {
-        (Master::Obstacle(obstacle), _) => GLOBAL.map(|e| obstacle.motion().rotate(e, time)),
+        (Master::Obstacle(obstacle), _) => {
+            GLOBAL.map(|e| obstacle.motion().rotate(e.into(), time).into())
+        }
         (Master::Surface(surface), Some(facet)) => {
             facet_axes(surface, facet as usize, positions, dim).unwrap_or(GLOBAL)
         }
@@ -74,7 +76,12 @@ mod tests {
 
     fn moved(positions: &[f64], dim: usize, motion: &Motion) -> Vec<f64> {
         (0..NODES as u32)
-            .flat_map(|k| motion.position(node_vector(positions, dim, k), 0.0)[..dim].to_vec())
+            .flat_map(|k| {
+                motion
+                    .position(node_vector(positions, dim, k).into(), 0.0)
+                    .as_slice()[..dim]
+                    .to_vec()
+            })
             .collect()
     }
 
@@ -120,7 +127,7 @@ mod tests {
             let turn = motion(axis, angle, [shift[0], shift[1], if plane { 0.0 } else { shift[2] }]);
             let after = axes(&moved(&x, dim, &turn));
             for i in 0..3 {
-                prop_assert!(norm(sub(turn.rotate(before[i], 0.0), after[i])) < 1e-13);
+                prop_assert!(norm(sub(turn.rotate(before[i].into(), 0.0).into(), after[i])) < 1e-13);
             }
             let still = axes(&moved(&x, dim, &motion(axis, 0.0, shift)));
             for i in 0..3 {

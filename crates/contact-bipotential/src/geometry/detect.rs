@@ -184,7 +184,7 @@ fn frame_rule(interface: &Interface, reference: &[f64], dim: usize) -> FrameRule
         }
         Master::Surface(surface) => {
             for n in surface.vertex_normals(reference) {
-                sum = axpy(sum, 1.0, n);
+                sum = axpy(sum, 1.0, n.into());
             }
             // The normals of a closed surface cancel but for round-off, which is no direction.
             sum = significant(sum, surface.nodes.len() as f64);
@@ -255,7 +255,8 @@ impl Seeker<'_> {
             return;
         };
         counters.bvh_refits += u64::from(search.refit());
-        search.set_normals(surface.vertex_normals(self.positions));
+        let normals = surface.vertex_normals(self.positions);
+        search.set_normals(normals.into_iter().map(Vec3::from).collect());
         let search = &*search;
         let found: Vec<(Option<Contact>, u64)> = slaves
             .into_par_iter()

@@ -113,8 +113,8 @@ impl Shape {
 
     /// The shape where the motion takes it at time `t` \[s\].
     fn moved(&self, motion: &Motion, t: f64) -> Self {
-        let place = |x| motion.position(x, t);
-        let turn = |a| motion.rotate(a, t);
+        let place = |x: [f64; 3]| motion.position(x.into(), t).into();
+        let turn = |a: [f64; 3]| motion.rotate(a.into(), t).into();
         match *self {
             Shape::Plane { point, normal } => Shape::Plane {
                 point: place(point),
@@ -411,11 +411,8 @@ impl PlacedObstacle<'_> {
     /// Displacement \[m\] over the step of the obstacle's material point that ends it at `point` \[m\].
     pub fn displacement(&self, point: [f64; 3]) -> [f64; 3] {
         self.motion.map_or([0.0; 3], |motion| {
-            let x = motion.pull_back(point, self.t1);
-            sub(
-                motion.displacement(x, self.t1),
-                motion.displacement(x, self.t0),
-            )
+            let x = motion.pull_back(point.into(), self.t1);
+            (motion.displacement(x, self.t1) - motion.displacement(x, self.t0)).into()
         })
     }
 }

@@ -1,6 +1,8 @@
 //! Properties of forces, energies and tangents.
 
-use super::{DIFFERENCES, ROUND_OFF, Violation, direction, largest, same, same_entries};
+use nalgebra::Vector3;
+
+use super::{AGREEMENT, DIFFERENCES, Violation, direction, largest, same, same_entries};
 use crate::block::{Block, tangent_index, tangent_len};
 use crate::error::FeError;
 use crate::mesh::Symmetry;
@@ -24,11 +26,11 @@ struct Evaluation {
 ///
 /// # Errors
 /// The first [`Violation`] found.
-pub fn check_block(block: &dyn Block, points: &[[f64; 3]], u: &[f64]) -> Result<(), Violation> {
+pub fn check_block(block: &dyn Block, points: &[Vector3<f64>], u: &[f64]) -> Result<(), Violation> {
     let here = evaluate(block, u)?;
     let (forces, energies) = force(block, u)?;
     let scale = largest(&here.tangents) * size(points);
-    let tolerance = ROUND_OFF * scale;
+    let tolerance = AGREEMENT * scale;
     same_entries("force beside the tangent", &here.forces, &forces, tolerance)?;
     let tolerance = tolerance * size(points);
     same_entries(
@@ -78,7 +80,7 @@ fn force(block: &dyn Block, u: &[f64]) -> Result<(Vec<f64>, Vec<f64>), FeError> 
 }
 
 /// Largest extent of the mesh \[m\].
-fn size(points: &[[f64; 3]]) -> f64 {
+fn size(points: &[Vector3<f64>]) -> f64 {
     let extent = |i: usize| {
         let low = points.iter().fold(f64::INFINITY, |m, x| m.min(x[i]));
         let high = points.iter().fold(f64::NEG_INFINITY, |m, x| m.max(x[i]));
@@ -90,7 +92,7 @@ fn size(points: &[[f64; 3]]) -> f64 {
 /// Pairs of different components are stored once; what is stored twice has to agree.
 fn check_symmetry(block: &dyn Block, tangents: &[f64]) -> Result<(), Violation> {
     let (dim, nodes) = (block.dim(), block.nodes_per_element());
-    let tolerance = ROUND_OFF * largest(tangents);
+    let tolerance = AGREEMENT * largest(tangents);
     for (element, k) in tangents.chunks_exact(tangent_len(dim, nodes)).enumerate() {
         for i in 0..dim {
             for a in 0..nodes {
@@ -169,12 +171,12 @@ fn check_derivatives(
     Ok(())
 }
 
-fn check_rigid_motion(block: &dyn Block, points: &[[f64; 3]]) -> Result<(), Violation> {
+fn check_rigid_motion(block: &dyn Block, points: &[Vector3<f64>]) -> Result<(), Violation> {
     let (dim, size) = (block.dim(), size(points));
     let rest = evaluate(block, &vec![0.0; dim * points.len()])?;
     // Round-off of `C` acts as a strain of 1e-16; a law may lose two more digits.
-    let force_tolerance = ROUND_OFF * largest(&rest.tangents) * size;
-    let energy_tolerance = ROUND_OFF * force_tolerance * size;
+    let force_tolerance = AGREEMENT * largest(&rest.tangents) * size;
+    let energy_tolerance = AGREEMENT * force_tolerance * size;
     // Around an axis of symmetry only a shift along it is rigid.
     let ring = block.symmetry() == Symmetry::Axisymmetric;
     let angles = [0.0, 0.3, 2.0, std::f64::consts::PI];
@@ -196,7 +198,7 @@ fn check_rigid_motion(block: &dyn Block, points: &[[f64; 3]]) -> Result<(), Viol
             rotation: Some(Rotation::new(points[0], axis, angle)?),
         };
         let moved = points.iter().map(|&x| motion.displacement(x, 0.0));
-        let u: Vec<f64> = moved.flat_map(|d| d.into_iter().take(dim)).collect();
+        let u: Vec<f64> = moved.flat_map(|d| d.as_slice()[..dim].to_vec()).collect();
         let (forces, energies) = force(block, &u)?;
         let none = vec![0.0; forces.len()];
         same_entries("no force in rigid motion", &forces, &none, force_tolerance)?;

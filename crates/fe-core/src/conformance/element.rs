@@ -1,11 +1,12 @@
 //! Properties of shape functions, rules and facets.
 
-use super::{ROUND_OFF, Violation, same, same_entries};
+use nalgebra::Vector3;
+
+use super::{AGREEMENT, Violation, same, same_entries};
 use crate::element::{Element, jacobian};
 use crate::kinematics::determinant;
 use crate::mesh::Facet;
 use crate::quadrature::QuadraturePoint;
-use crate::vector::{cross, dot, minus};
 
 /// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields
 /// (quadratic ones from degree 2), and have the right derivatives; both rules measure the volume; facets are closed and point outward.
@@ -20,7 +21,7 @@ where
     for (a, xi) in E::reference_nodes().iter().enumerate() {
         let mut expected = [0.0; N];
         expected[a] = 1.0;
-        same_entries("one at its node", &E::shape(xi), &expected, ROUND_OFF)?;
+        same_entries("one at its node", &E::shape(xi), &expected, AGREEMENT)?;
     }
     for point in E::rule().iter().chain(E::mass_rule()) {
         check_shape::<E, N>(&point.xi)?;
@@ -41,7 +42,7 @@ fn check_sizes<E: Element, const N: usize>() -> Result<(), Violation> {
     }
     let volume = |rule: &[QuadraturePoint]| rule.iter().map(|q| q.weight).sum::<f64>();
     let (found, expected) = (volume(E::mass_rule()), volume(E::rule()));
-    same("sum of weights", String::new, found, expected, ROUND_OFF)
+    same("sum of weights", String::new, found, expected, AGREEMENT)
 }
 
 fn check_shape<E, const N: usize>(xi: &[f64; 3]) -> Result<(), Violation>
@@ -51,18 +52,18 @@ where
     let place = || format!("xi = {xi:?}");
     let (shape, derivatives) = (E::shape(xi), E::shape_derivatives(xi));
     let total = shape.iter().sum();
-    same("partition of unity", place, total, 1.0, ROUND_OFF)?;
+    same("partition of unity", place, total, 1.0, AGREEMENT)?;
     let interpolated = |f: &dyn Fn(&[f64; 3]) -> f64| -> f64 {
         let nodes = E::reference_nodes().iter();
         nodes.zip(&shape).map(|(x, n)| n * f(x)).sum()
     };
     for i in 0..3 {
         let found = interpolated(&|x| x[i]);
-        same("linear completeness", place, found, xi[i], ROUND_OFF)?;
+        same("linear completeness", place, found, xi[i], AGREEMENT)?;
         for j in (0..3).filter(|_| E::KIND.degree() == 2) {
             let found = interpolated(&|x| x[i] * x[j]);
             let expected = xi[i] * xi[j];
-            same("quadratic completeness", place, found, expected, ROUND_OFF)?;
+            same("quadratic completeness", place, found, expected, AGREEMENT)?;
         }
         let h = 1e-5;
         let at = |step: f64| {
@@ -93,31 +94,31 @@ where
 {
     let x: [[f64; 3]; N] = std::array::from_fn(|a| E::reference_nodes()[a]);
     let local: Vec<u32> = (0..N as u32).collect();
-    let mut area = [0.0; 3];
+    let mut area = Vector3::zeros();
     let mut flux = 0.0;
     // Straight edges, and flat facets as fans of triangles around their first node.
     let facets = E::KIND.facets().iter();
     let facets = facets.map(|facet| Facet::of_cell(E::KIND.facet_kind(), &local, facet));
     for piece in facets.flat_map(|facet| facet.pieces().collect::<Vec<_>>()) {
-        let node = |m: usize| x[piece.nodes[m] as usize];
+        let node = |m: usize| Vector3::from(x[piece.nodes[m] as usize]);
         if E::KIND.dim() == 2 {
             let (p, q) = (node(0), node(1));
-            let normal = [q[1] - p[1], p[0] - q[0], 0.0];
-            (0..3).for_each(|i| area[i] += normal[i]);
-            flux += dot(&p, &normal);
+            let normal = Vector3::new(q.y - p.y, p.x - q.x, 0.0);
+            area += normal;
+            flux += p.dot(&normal);
         }
         for m in 2..piece.nodes().len() {
             let (p, q, r) = (node(0), node(m - 1), node(m));
-            let normal = cross(&minus(&q, &p), &minus(&r, &p));
-            (0..3).for_each(|i| area[i] += 0.5 * normal[i]);
-            flux += 0.5 * dot(&p, &normal);
+            let normal = (q - p).cross(&(r - p));
+            area += 0.5 * normal;
+            flux += 0.5 * p.dot(&normal);
         }
     }
-    same_entries("closed facets", &area, &[0.0; 3], ROUND_OFF)?;
+    same_entries("closed facets", area.as_slice(), &[0.0; 3], AGREEMENT)?;
     let mut volume = 0.0;
     for point in E::rule() {
         volume += point.weight * determinant(&jacobian::<E, N>(&x, &point.xi));
     }
     let found = flux / E::KIND.dim() as f64;
-    same("outward facets", String::new, found, volume, ROUND_OFF)
+    same("outward facets", String::new, found, volume, AGREEMENT)
 }

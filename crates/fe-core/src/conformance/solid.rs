@@ -1,6 +1,8 @@
 //! Properties of assembled solids.
 
-use super::{ROUND_OFF, Violation, largest, same, same_entries};
+use nalgebra::{Matrix3, Vector3};
+
+use super::{AGREEMENT, Violation, largest, same, same_entries};
 use crate::block::ElementState;
 use crate::solid::Solid;
 
@@ -10,11 +12,11 @@ use crate::solid::Solid;
 ///
 /// # Errors
 /// The first [`Violation`] found.
-pub fn check_patch(solid: &Solid, h: &[[f64; 3]; 3]) -> Result<(), Violation> {
+pub fn check_patch(solid: &Solid, h: &Matrix3<f64>) -> Result<(), Violation> {
     let dim = solid.dim();
-    let affine = |x: &[f64; 3]| {
+    let affine = |x: &Vector3<f64>| {
         let x = *x;
-        (0..dim).map(move |i| (0..dim).map(|j| h[i][j] * x[j]).sum::<f64>())
+        (0..dim).map(move |i| (0..dim).map(|j| h[(i, j)] * x[j]).sum::<f64>())
     };
     let u: Vec<f64> = solid.mesh().points.iter().flat_map(affine).collect();
     let mut f = vec![0.0; solid.dof_count()];
@@ -35,7 +37,7 @@ pub fn check_patch(solid: &Solid, h: &[[f64; 3]; 3]) -> Result<(), Violation> {
     }
     for node in (0..solid.node_count()).filter(|&node| inside[node]) {
         let force = &f[dim * node..dim * (node + 1)];
-        same_entries("patch test", force, &[0.0; 3], ROUND_OFF * scale)?;
+        same_entries("patch test", force, &[0.0; 3], AGREEMENT * scale)?;
     }
     check_uniform_stress(solid, &u)
 }
@@ -47,7 +49,7 @@ fn check_uniform_stress(solid: &Solid, u: &[f64]) -> Result<(), Violation> {
         let Some(first) = states.first().copied() else {
             continue;
         };
-        let tolerance = ROUND_OFF * 100.0 * largest(&first.cauchy);
+        let tolerance = AGREEMENT * 100.0 * largest(&first.cauchy);
         for state in &states {
             same_entries("uniform stress", &state.cauchy, &first.cauchy, tolerance)?;
             let (low, high) = (state.det_f_min, state.det_f_max);
@@ -56,7 +58,7 @@ fn check_uniform_stress(solid: &Solid, u: &[f64]) -> Result<(), Violation> {
                 String::new,
                 low,
                 high,
-                ROUND_OFF * high,
+                AGREEMENT * high,
             )?;
         }
     }
@@ -71,7 +73,7 @@ fn check_uniform_stress(solid: &Solid, u: &[f64]) -> Result<(), Violation> {
 pub fn check_mass(solid: &Solid, expected: f64) -> Result<(), Violation> {
     let dim = solid.dim();
     for mass in [solid.consistent_mass(), solid.lumped_mass()] {
-        let tolerance = ROUND_OFF * expected;
+        let tolerance = AGREEMENT * expected;
         same("total mass", String::new, mass.total(), expected, tolerance)?;
         for i in 0..dim {
             let v: Vec<f64> = (0..solid.dof_count())

@@ -20,9 +20,10 @@ pub use grid::GridMesh;
 pub use half_ball::HalfBallMesh;
 pub use rectangle::RectangleMesh;
 
+use nalgebra::Vector3;
+
 use super::{CellBlock, CellKind, Facet, Mesh, Symmetry};
 use crate::error::MeshError;
-use crate::vector::{dot, minus, norm, unit};
 
 /// Where the dome of a half body points along its last axis: y in the plane, z in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,7 +107,7 @@ fn check_kind(block: &str, kind: CellKind, dim: usize) -> Result<(), MeshError> 
 /// A mesh of one block with the node set `all`.
 fn single_block(
     symmetry: Symmetry,
-    points: Vec<[f64; 3]>,
+    points: Vec<Vector3<f64>>,
     block: &str,
     kind: CellKind,
     cells: Vec<u32>,
@@ -155,7 +156,7 @@ fn check_shape_kind(shape: &'static str, kind: CellKind, of: CellKind) -> Result
 fn into_kind(
     mut mesh: Mesh,
     kind: CellKind,
-    center: [f64; 3],
+    center: Vector3<f64>,
     round: impl Fn(u32) -> bool,
 ) -> Result<Mesh, MeshError> {
     if kind.linear() == CellKind::Tri3 {
@@ -165,15 +166,14 @@ fn into_kind(
     if kind.degree() == 1 {
         return Ok(mesh);
     }
-    let radius = |x: &[f64; 3]| norm(&minus(x, &center));
+    let radius = |x: &Vector3<f64>| (x - center).norm();
     mesh.quadratic_at(|corners, x| {
         if !corners.iter().all(|&corner| round(corner)) {
             return x;
         }
         let radii = corners.iter().map(|&n| radius(&mesh.points[n as usize]));
         let mean = radii.sum::<f64>() / corners.len() as f64;
-        let direction = unit(&minus(&x, &center));
-        std::array::from_fn(|i| center[i] + mean * direction[i])
+        center + mean * (x - center).normalize()
     })
 }
 
@@ -186,11 +186,8 @@ fn of_degree(degree: usize, mesh: Mesh) -> Result<Mesh, MeshError> {
 }
 
 /// Cuts quadrilaterals along their shorter diagonal into triangles.
-fn triangles(points: &[[f64; 3]], quads: &[u32]) -> Vec<u32> {
-    let length = |a: u32, b: u32| {
-        let d = minus(&points[a as usize], &points[b as usize]);
-        dot(&d, &d)
-    };
+fn triangles(points: &[Vector3<f64>], quads: &[u32]) -> Vec<u32> {
+    let length = |a: u32, b: u32| (points[a as usize] - points[b as usize]).norm_squared();
     let cut = |quad: &[u32]| {
         let [a, b, c, d] = [quad[0], quad[1], quad[2], quad[3]];
         // Round-off must not decide between equal diagonals.

@@ -1,5 +1,7 @@
 //! Kinds of cells.
 
+use nalgebra::Vector3;
+
 use super::FacetKind;
 use crate::element::{self, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 
@@ -127,7 +129,11 @@ impl CellKind {
     }
 
     /// First quadrature point whose Jacobian is not positive, with that Jacobian \[m^dim\].
-    pub(super) fn bad_jacobian(self, points: &[[f64; 3]], cell: &[u32]) -> Option<(usize, f64)> {
+    pub(super) fn bad_jacobian(
+        self,
+        points: &[Vector3<f64>],
+        cell: &[u32],
+    ) -> Option<(usize, f64)> {
         match self {
             CellKind::Hex8 => element::bad_jacobian::<Hex8, 8>(points, cell),
             CellKind::Tet4 => element::bad_jacobian::<Tet4, 4>(points, cell),

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
+
 use super::{CellBlock, Facet, Mesh};
 use crate::error::MeshError;
 
@@ -27,7 +29,7 @@ impl Mesh {
     /// As [`Mesh::quadratic`].
     pub fn quadratic_at(
         &self,
-        place: impl Fn(&[u32], [f64; 3]) -> [f64; 3],
+        place: impl Fn(&[u32], Vector3<f64>) -> Vector3<f64>,
     ) -> Result<Mesh, MeshError> {
         let added = |block: &CellBlock| block.kind.quadratic().parents().len() * block.cell_count();
         let most = self.points.len() + self.blocks.iter().map(added).sum::<usize>();
@@ -83,7 +85,7 @@ impl Mesh {
 
 /// Nodes in the middle of corners, as they are found.
 struct Builder<F> {
-    points: Vec<[f64; 3]>,
+    points: Vec<Vector3<f64>>,
     /// Number of corners.
     first: usize,
     /// Nodes of edges and faces by their corners, sorted.
@@ -93,7 +95,7 @@ struct Builder<F> {
     place: F,
 }
 
-impl<F: Fn(&[u32], [f64; 3]) -> [f64; 3]> Builder<F> {
+impl<F: Fn(&[u32], Vector3<f64>) -> Vector3<f64>> Builder<F> {
     fn block(&mut self, block: &CellBlock) -> CellBlock {
         let mut cells = Vec::new();
         let kind = block.kind.quadratic();
@@ -143,9 +145,9 @@ impl<F: Fn(&[u32], [f64; 3]) -> [f64; 3]> Builder<F> {
             [a, b, c, d] => {
                 let edges = [[a, b], [b, c], [c, d], [d, a]].map(|edge| self.middle(&edge));
                 let edges = self.sum(&edges);
-                std::array::from_fn(|i| 0.5 * edges[i] - 0.25 * ends[i])
+                0.5 * edges - 0.25 * ends
             }
-            _ => ends.map(|x| 0.5 * x),
+            _ => 0.5 * ends,
         };
         let node = self.add(corners, x);
         self.middles.insert(key, node);
@@ -155,11 +157,10 @@ impl<F: Fn(&[u32], [f64; 3]) -> [f64; 3]> Builder<F> {
     /// Node in the middle of a hexahedron, from its corners and the 26 nodes it has so far: the blend of its faces.
     fn centre(&mut self, corners: &[u32], nodes: &[u32]) -> u32 {
         let [corner, edge, face] = [0..8, 8..20, 20..26].map(|part| self.sum(&nodes[part]));
-        let x = std::array::from_fn(|i| 0.5 * face[i] - 0.25 * edge[i] + 0.125 * corner[i]);
-        self.add(corners, x)
+        self.add(corners, 0.5 * face - 0.25 * edge + 0.125 * corner)
     }
 
-    fn add(&mut self, corners: &[u32], x: [f64; 3]) -> u32 {
+    fn add(&mut self, corners: &[u32], x: Vector3<f64>) -> u32 {
         let mut all = [NONE; 8];
         all[..corners.len()].copy_from_slice(corners);
         self.corners.push(all);
@@ -168,13 +169,10 @@ impl<F: Fn(&[u32], [f64; 3]) -> [f64; 3]> Builder<F> {
     }
 
     /// Sum of the places of nodes \[m\]; exact for four that agree.
-    fn sum(&self, nodes: &[u32]) -> [f64; 3] {
-        let pair = |pair: &[u32], i: usize| {
-            pair.iter()
-                .map(|&n| self.points[n as usize][i])
-                .sum::<f64>()
-        };
-        std::array::from_fn(|i| nodes.chunks(2).map(|two| pair(two, i)).sum())
+    fn sum(&self, nodes: &[u32]) -> Vector3<f64> {
+        let point = |&node: &u32| self.points[node as usize];
+        let pair = |pair: &[u32]| -> Vector3<f64> { pair.iter().map(point).sum() };
+        nodes.chunks(2).map(pair).sum()
     }
 
     /// Added nodes whose corners all belong to a set.

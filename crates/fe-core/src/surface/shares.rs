@@ -1,17 +1,18 @@
 //! Integrals of shape functions over facets in the reference configuration.
 
+use nalgebra::Vector3;
+
 use crate::element::quadratic::{line, line_derivative};
 use crate::element::{Element, Quad4, Quad9, Tri6};
 use crate::mesh::{Facet, FacetKind, Symmetry};
 use crate::quadrature::GAUSS_3;
-use crate::vector::{cross, minus, norm};
 
 /// Below this part of the area of a facet the share of a node is no measure of what acts there.
 const LEAST: f64 = 0.01;
 
 /// Integral of each shape function over a facet \[m^2\]; unused entries are zero. Exact on flat facets with straight
 /// edges.
-pub(super) fn shares(facet: &Facet, points: &[[f64; 3]], symmetry: Symmetry) -> [f64; 9] {
+pub(super) fn shares(facet: &Facet, points: &[Vector3<f64>], symmetry: Symmetry) -> [f64; 9] {
     let x = |m: usize| points[facet.nodes[m] as usize];
     let mut all = [0.0; 9];
     match facet.kind {
@@ -24,8 +25,8 @@ pub(super) fn shares(facet: &Facet, points: &[[f64; 3]], symmetry: Symmetry) -> 
         }
         FacetKind::Edge3 => all[..3].copy_from_slice(&on_edge([x(0), x(1), x(2)], symmetry)),
         FacetKind::Tri3 => {
-            let normal = cross(&minus(&x(1), &x(0)), &minus(&x(2), &x(0)));
-            all[..3].fill(norm(&normal) / 6.0);
+            let normal = (x(1) - x(0)).cross(&(x(2) - x(0)));
+            all[..3].fill(normal.norm() / 6.0);
         }
         FacetKind::Tri6 => all[..6].copy_from_slice(&on_face::<Tri6, 6>(&std::array::from_fn(x))),
         FacetKind::Quad4 => all[..4].copy_from_slice(&on_face::<Quad4, 4>(&std::array::from_fn(x))),
@@ -52,7 +53,7 @@ pub(super) fn usable(mut shares: [f64; 9]) -> [f64; 9] {
 }
 
 /// Three Gauss points on an edge with ends `x[0]`, `x[1]` and middle `x[2]`.
-fn on_edge(x: [[f64; 3]; 3], symmetry: Symmetry) -> [f64; 3] {
+fn on_edge(x: [Vector3<f64>; 3], symmetry: Symmetry) -> [f64; 3] {
     let nodes = [-1.0, 1.0, 0.0];
     let rule = [
         (-GAUSS_3, 5.0 / 9.0),
@@ -74,17 +75,15 @@ fn on_edge(x: [[f64; 3]; 3], symmetry: Symmetry) -> [f64; 3] {
 }
 
 /// Points of the rule of the plane element with the same nodes, on a face in space.
-fn on_face<E, const N: usize>(x: &[[f64; 3]; N]) -> [f64; N]
+fn on_face<E, const N: usize>(x: &[Vector3<f64>; N]) -> [f64; N]
 where
     E: Element<Nodal = [f64; N]>,
 {
     let mut shares = [0.0; N];
     for point in E::rule() {
         let (shape, slopes) = (E::shape(&point.xi), E::shape_derivatives(&point.xi));
-        let along = |j: usize| -> [f64; 3] {
-            std::array::from_fn(|i| (0..N).map(|a| slopes[j][a] * x[a][i]).sum())
-        };
-        let area = point.weight * norm(&cross(&along(0), &along(1)));
+        let along = |j: usize| -> Vector3<f64> { (0..N).map(|a| slopes[j][a] * x[a]).sum() };
+        let area = point.weight * along(0).cross(&along(1)).norm();
         (0..N).for_each(|a| shares[a] += area * shape[a]);
     }
     shares

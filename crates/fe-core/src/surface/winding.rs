@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::Vector3;
+
 use super::Surface;
-use crate::vector::{cross, dot, minus, norm};
 
 impl Surface {
     /// How often the surface goes round `point` \[-\]: 1 inside of a closed outward surface, 0 outside, something between for
@@ -11,12 +12,12 @@ impl Surface {
     ///
     /// `positions` are current coordinates \[m\] of the whole mesh, flat, `dim * node + component`. Source: the solid angle of
     /// a triangle of Van Oosterom and Strackee (1983); in the plane, the angle of an edge.
-    pub fn winding(&self, positions: &[f64], point: [f64; 3]) -> f64 {
+    pub fn winding(&self, positions: &[f64], point: Vector3<f64>) -> f64 {
         let seen = |facet| {
             let x = self.facet_positions(facet, positions);
-            let [a, b, c, d] = x.each_ref().map(|x| minus(x, &point));
+            let [a, b, c, d] = x.map(|x| x - point);
             match facet.nodes().len() {
-                2 => (a[0] * b[1] - a[1] * b[0]).atan2(dot(&a, &b)) / (2.0 * PI),
+                2 => (a.x * b.y - a.y * b.x).atan2(a.dot(&b)) / (2.0 * PI),
                 3 => solid_angle(&a, &b, &c) / (4.0 * PI),
                 _ => (solid_angle(&a, &b, &c) + solid_angle(&a, &c, &d)) / (4.0 * PI),
             }
@@ -25,14 +26,15 @@ impl Surface {
     }
 }
 
-fn solid_angle(a: &[f64; 3], b: &[f64; 3], c: &[f64; 3]) -> f64 {
-    let (la, lb, lc) = (norm(a), norm(b), norm(c));
-    let below = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
-    2.0 * dot(a, &cross(b, c)).atan2(below)
+fn solid_angle(a: &Vector3<f64>, b: &Vector3<f64>, c: &Vector3<f64>) -> f64 {
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+    let below = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+    2.0 * a.dot(&b.cross(c)).atan2(below)
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector3;
     use proptest::prelude::*;
 
     use crate::{BoxMesh, CellKind, Mesh, RectangleMesh, Surface};
@@ -51,7 +53,9 @@ mod tests {
 
     fn flat(mesh: &Mesh) -> Vec<f64> {
         let points = mesh.points.iter();
-        points.flat_map(|x| x[..mesh.dim].to_vec()).collect()
+        points
+            .flat_map(|x| x.as_slice()[..mesh.dim].to_vec())
+            .collect()
     }
 
     proptest! {
@@ -62,8 +66,8 @@ mod tests {
             for kind in [Quad4, Quad9, Tri3, Hex8, Hex27, Tet4, Tet10] {
                 let mesh = block(kind);
                 let surface = Surface::new(mesh.boundary_facets()).unwrap();
-                let at: [f64; 3] = std::array::from_fn(|i| if i < mesh.dim { p[i] } else { 0.0 });
-                let inside = at[..mesh.dim].iter().all(|x| (0.0..1.0).contains(x));
+                let at = Vector3::from_fn(|i, _| if i < mesh.dim { p[i] } else { 0.0 });
+                let inside = at.iter().take(mesh.dim).all(|x| (0.0..1.0).contains(x));
                 let found = surface.winding(&flat(&mesh), at);
                 prop_assert!((found - f64::from(u8::from(inside))).abs() < 1e-9, "{kind:?} {found}");
             }

@@ -11,6 +11,7 @@ use fe_core::{
     SolidBlock, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,
 };
 use hyperelastic::{Material, SaintVenantKirchhoff};
+use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
 use crate::common::{self, KINDS, blatz_ko, distorted_box, neo_hookean};
@@ -29,7 +30,7 @@ fn elements_pass_the_battery() {
 
 #[test]
 fn patch_test_on_distorted_meshes() {
-    let gradient = [[0.2, 0.3, -0.1], [0.1, -0.2, 0.05], [0.0, 0.1, 0.3]];
+    let gradient = Matrix3::new(0.2, 0.3, -0.1, 0.1, -0.2, 0.05, 0.0, 0.1, 0.3);
     for kind in KINDS {
         let mesh = distorted_box([3, 4, 3], kind, 0.25, false);
         conformance::check_patch(&common::solid(mesh.clone(), blatz_ko(), 1.0), &gradient).unwrap();
@@ -45,7 +46,7 @@ fn patch_test_without_nodes_inside_is_refused() {
         blatz_ko(),
         1.0,
     );
-    let gradient = [[0.1, 0.0, 0.0], [0.0; 3], [0.0; 3]];
+    let gradient = Matrix3::from_diagonal(&Vector3::new(0.1, 0.0, 0.0));
     let result = conformance::check_patch(&solid, &gradient);
     assert!(matches!(result, Err(Violation::Input { .. })));
 }
@@ -89,9 +90,9 @@ fn stress_state_of_a_stretched_and_turned_bar() {
         ..Motion::still()
     };
     let stretch = 1.4;
-    let moved = |x: &[f64; 3]| {
-        let y = turn.position([stretch * x[0], x[1], x[2]], 0.0);
-        [y[0] - x[0], y[1] - x[1], y[2] - x[2]]
+    let moved = |x: &Vector3<f64>| {
+        let y = turn.position(Vector3::new(stretch * x[0], x[1], x[2]), 0.0);
+        <[f64; 3]>::from(y - x)
     };
     let u: Vec<f64> = mesh.points.iter().flat_map(moved).collect();
     for state in states(block.as_ref(), &u) {

@@ -2,6 +2,7 @@
 
 use fe_core::{BoxMesh, CellKind, Mesh, RectangleMesh, Solid, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 pub(crate) const KINDS: [CellKind; 4] = [
@@ -69,7 +70,7 @@ pub(crate) fn distorted_rectangle(
     for (node, x) in mesh.points.iter_mut().enumerate() {
         let outer = (0..2).any(|i| x[i] == min[i] || x[i] == max[i]);
         if boundary || !outer {
-            for (i, x) in x[..2].iter_mut().enumerate() {
+            for (i, x) in x.iter_mut().take(2).enumerate() {
                 *x += jitter * cell * (1.7 * node as f64 + 2.9 * i as f64).sin();
             }
         }
@@ -101,7 +102,7 @@ pub(crate) fn curved(mut mesh: Mesh, by: f64) -> Mesh {
         .enumerate()
         .filter(|(n, _)| !held[*n])
     {
-        for (i, x) in x[..kind.dim()].iter_mut().enumerate() {
+        for (i, x) in x.iter_mut().take(kind.dim()).enumerate() {
             *x += by * (2.3 * node as f64 + 1.9 * i as f64).sin();
         }
     }
@@ -122,7 +123,7 @@ pub(crate) fn displacement(nodes: usize, size: f64) -> impl Strategy<Value = Vec
 
 /// A smooth displacement, large enough to matter.
 pub(crate) fn wave(mesh: &Mesh, size: f64) -> Vec<f64> {
-    let wave = |x: &[f64; 3]| {
+    let wave = |x: &Vector3<f64>| {
         [
             size * (3.0 * x[1] + x[2]).sin(),
             size * (2.0 * x[2] - x[0]).cos(),

@@ -3,6 +3,7 @@
 use fe_core::{
     CellKind, DeadTraction, Dirichlet, FeError, Gravity, Interpolation, Motion, Rotation, Table,
 };
+use nalgebra::Vector3;
 
 use crate::common::{self, KINDS, blatz_ko, distorted_box};
 
@@ -52,7 +53,7 @@ fn tractions_have_their_resultant_and_moment() {
         let mesh = distorted_box([3, 2, 2], kind, 0.2, false);
         let pull = DeadTraction {
             facets: mesh.facet_sets["x_max"].clone(),
-            traction: [2.0, 0.0, -3.0],
+            traction: Vector3::new(2.0, 0.0, -3.0),
             factor: Table::constant(1.0),
         };
         let f = pull.nodal_forces(&mesh).unwrap();
@@ -77,7 +78,7 @@ fn weight_is_mass_times_gravity_for_both_masses() {
     let mesh = distorted_box([2, 3, 2], CellKind::Tet4, 0.2, true);
     let solid = common::solid(mesh, blatz_ko(), 40.0);
     let gravity = Gravity {
-        acceleration: [0.0, 1.0, -9.81],
+        acceleration: Vector3::new(0.0, 1.0, -9.81),
         factor: Table::constant(1.0),
     };
     let consistent = gravity.nodal_forces(&solid.consistent_mass()).unwrap();
@@ -102,23 +103,23 @@ fn impossible_loads_are_refused() {
         factor: Table::zero(),
     };
     assert!(matches!(
-        load([f64::NAN; 3]).nodal_forces(&mesh),
+        load(Vector3::repeat(f64::NAN)).nodal_forces(&mesh),
         Err(FeError::Parameter { .. })
     ));
-    let mut empty = load([1.0; 3]);
+    let mut empty = load(Vector3::repeat(1.0));
     empty.facets.clear();
     assert!(matches!(
         empty.nodal_forces(&mesh),
         Err(FeError::Surface { .. })
     ));
-    let mut far = load([1.0; 3]);
+    let mut far = load(Vector3::repeat(1.0));
     far.facets[0].nodes[0] = 1000;
     assert!(matches!(
         far.nodal_forces(&mesh),
         Err(FeError::Index { .. })
     ));
     let gravity = Gravity {
-        acceleration: [f64::INFINITY, 0.0, 0.0],
+        acceleration: Vector3::new(f64::INFINITY, 0.0, 0.0),
         factor: Table::zero(),
     };
     let solid = common::solid(mesh, blatz_ko(), 1.0);

@@ -5,12 +5,13 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use fe_core::block::{ElementState, tangent_index, tangent_len};
 use fe_core::{CellKind, Dilatation, Mesh, RectangleMesh, Symmetry, solid_block_with};
 use hyperelastic::{ElasticConstants, SaintVenantKirchhoff};
+use nalgebra::Vector3;
 
 /// Young's modulus \[Pa\]. Strains are `1/E`: small, so that the tangent at rest is the problem.
 const YOUNG: f64 = 1.0;
 
 /// Function of the position and of Poisson's ratio.
-type Field<T> = Box<dyn Fn(&[f64; 3], f64) -> T>;
+type Field<T> = Box<dyn Fn(&Vector3<f64>, f64) -> T>;
 
 /// A plane problem with a closed form, pressed along one set of facets.
 struct Problem {
@@ -105,7 +106,7 @@ fn hollow(symmetry: Symmetry, kind: CellKind, cells: usize, distortion: f64) -> 
         } else {
             cos
         };
-        *x = [r * cos, r * sin, 0.0];
+        *x = Vector3::new(r * cos, r * sin, 0.0);
     }
     let load = edge_load(&mesh, "x_min", |_, n| [-n[0], -n[1]]);
     let ball = symmetry == Symmetry::Axisymmetric;
@@ -145,7 +146,7 @@ fn layer(kind: CellKind, cells: usize, distortion: f64) -> Problem {
     // Shear at y = 1: a s + b (s + c) = 0, pressure there: a c + b s = 1.
     let b = 1.0 / (s - c * (s + c) / s);
     let a = -b * (s + c) / s;
-    let exact = move |x: &[f64; 3], nu: f64| {
+    let exact = move |x: &Vector3<f64>, nu: f64| {
         let (s, c) = (x[1].sinh(), x[1].cosh());
         let phi = a * c + b * x[1] * s;
         // 2 G u_x = -d(phi)/dx + (1 - nu) int laplacian dx, and alike along y.
@@ -274,13 +275,9 @@ fn errors(problem: &Problem, nu: f64, dilatation: Dilatation) -> [f64; 2] {
     [0, 1].map(|i| (off[i] / size[i]).sqrt())
 }
 
-fn center(mesh: &Mesh, cell: &[u32]) -> [f64; 3] {
-    let sum = |i: usize| {
-        cell.iter()
-            .map(|&n| mesh.points[n as usize][i])
-            .sum::<f64>()
-    };
-    [0, 1, 2].map(|i| sum(i) / cell.len() as f64)
+fn center(mesh: &Mesh, cell: &[u32]) -> Vector3<f64> {
+    let sum: Vector3<f64> = cell.iter().map(|&n| mesh.points[n as usize]).sum();
+    sum / cell.len() as f64
 }
 
 /// Root mean square over patches of 2 x 2 cells of the part of the pressure that changes its sign from cell to cell, relative

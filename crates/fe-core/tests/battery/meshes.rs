@@ -3,27 +3,18 @@
 use std::collections::BTreeSet;
 
 use fe_core::{BoxMesh, CellKind, Facet, FacetKind, Mesh, MeshError, RectangleMesh, Symmetry};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::KINDS;
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
 /// Area vector of a flat facet, as fans of triangles.
-fn area(mesh: &Mesh, facet: &Facet) -> [f64; 3] {
-    let minus = |a: [f64; 3], b: [f64; 3]| std::array::from_fn(|i| a[i] - b[i]);
-    let mut sum = [0.0; 3];
+fn area(mesh: &Mesh, facet: &Facet) -> Vector3<f64> {
+    let mut sum = Vector3::zeros();
     for piece in facet.pieces() {
         let x = |m: usize| mesh.points[piece.nodes()[m] as usize];
         for m in 1..piece.nodes().len() - 1 {
-            let normal = cross(minus(x(m), x(0)), minus(x(m + 1), x(0)));
-            (0..3).for_each(|i| sum[i] += 0.5 * normal[i]);
+            sum += 0.5 * (x(m) - x(0)).cross(&(x(m + 1) - x(0)));
         }
     }
     sum
@@ -45,8 +36,8 @@ fn any_box() -> impl Strategy<Value = BoxMesh> {
     let grading = prop::array::uniform3(0.2..5.0_f64);
     (prop::array::uniform3(1..4_usize), grading, 0..KINDS.len()).prop_map(
         |(cells, grading, kind)| BoxMesh {
-            min: [-1.0, 0.5, 2.0],
-            max: [1.0, 1.5, 5.0],
+            min: Vector3::new(-1.0, 0.5, 2.0),
+            max: Vector3::new(1.0, 1.5, 5.0),
             cells,
             grading,
             kind: KINDS[kind],
@@ -167,7 +158,7 @@ fn defects_are_found_and_named() {
         MeshError::PointNotFinite { node: 3, .. }
     ));
     assert!(matches!(
-        defect(&|m| m.points.push([9.0; 3])),
+        defect(&|m| m.points.push(Vector3::repeat(9.0))),
         MeshError::OrphanNode { node: 12 }
     ));
     let truncated = defect(&|m| m.blocks[0].cells.truncate(11));
@@ -217,14 +208,14 @@ fn impossible_boxes_are_refused_with_the_bound() {
     );
     refuse(
         BoxMesh {
-            max: [1.0, 0.0, 1.0],
+            max: Vector3::new(1.0, 0.0, 1.0),
             ..unit
         },
         "axis 1",
     );
     refuse(
         BoxMesh {
-            min: [f64::NAN, 0.0, 0.0],
+            min: Vector3::new(f64::NAN, 0.0, 0.0),
             ..unit
         },
         "finite",

@@ -9,6 +9,7 @@ use fe_core::{
     RectangleMesh, Solid, Surface, SymmetricPattern, Symmetry, Table, solid_block,
 };
 use hyperelastic::{BlatzKo, ElasticConstants, Material, SaintVenantKirchhoff};
+use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
 use crate::common::{self, PLANE_KINDS, blatz_ko, distorted_rectangle, neo_hookean};
@@ -29,7 +30,7 @@ fn states(block: &dyn Block, u: &[f64]) -> Vec<ElementState> {
 
 /// Displacement of the map `x -> (stretch[0] x, stretch[1] y)`.
 fn stretched(mesh: &Mesh, stretch: [f64; 2]) -> Vec<f64> {
-    let moved = |x: &[f64; 3]| [(stretch[0] - 1.0) * x[0], (stretch[1] - 1.0) * x[1]];
+    let moved = |x: &Vector3<f64>| [(stretch[0] - 1.0) * x[0], (stretch[1] - 1.0) * x[1]];
     mesh.points.iter().flat_map(moved).collect()
 }
 
@@ -49,8 +50,8 @@ fn resultant(solid: &Solid, f: &[f64], set: &str, component: usize) -> f64 {
 
 #[test]
 fn patch_test_on_distorted_meshes() {
-    let shear = [[0.2, 0.3, 0.0], [0.1, -0.2, 0.0], [0.0; 3]];
-    let diagonal = [[0.2, 0.0, 0.0], [0.0, -0.15, 0.0], [0.0; 3]];
+    let shear = Matrix3::new(0.2, 0.3, 0.0, 0.1, -0.2, 0.0, 0.0, 0.0, 0.0);
+    let diagonal = Matrix3::from_diagonal(&Vector3::new(0.2, -0.15, 0.0));
     for kind in PLANE_KINDS {
         let flat = distorted_rectangle([4, 5], kind, 0.25, false);
         let rings = with_symmetry(&flat, Symmetry::Axisymmetric);
@@ -132,7 +133,12 @@ fn masses_have_their_totals_and_integrate_linear_fields() {
 
 /// One layer of hexahedra between planes that hold z, one metre thick.
 pub(crate) fn sheet(plane: &Mesh) -> Mesh {
-    let lifted = |z: f64| plane.points.iter().map(move |x| [x[0], x[1], z]);
+    let lifted = |z: f64| {
+        plane
+            .points
+            .iter()
+            .map(move |x| Vector3::new(x[0], x[1], z))
+    };
     let above = plane.points.len() as u32;
     let cells = plane.blocks[0].iter();
     let mut mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [1; 3])
@@ -282,7 +288,7 @@ fn tube(kind: CellKind, cells: usize, elastic: ElasticConstants) -> Vec<(f64, f6
     mesh.symmetry = Symmetry::Axisymmetric;
     let pressure = DeadTraction {
         facets: mesh.facet_set("x_min").unwrap().to_vec(),
-        traction: [1.0, 0.0, 0.0],
+        traction: Vector3::x(),
         factor: Table::constant(1.0),
     };
     let load = pressure.nodal_forces(&mesh).unwrap();
@@ -386,7 +392,7 @@ fn loads_and_supports_have_two_components() {
         let mesh = with_symmetry(&flat, symmetry);
         let pull = DeadTraction {
             facets: mesh.facet_sets["y_max"].clone(),
-            traction: [2.0, -3.0, 99.0],
+            traction: Vector3::new(2.0, -3.0, 99.0),
             factor: Table::constant(1.0),
         };
         let f = pull.nodal_forces(&mesh).unwrap();
@@ -409,7 +415,7 @@ fn loads_and_supports_have_two_components() {
         assert!((0..u.len()).all(|dof| u[dof] == if dofs.contains(&dof) { 2.0 } else { 0.0 }));
         let solid = common::solid(mesh, BlatzKo::new(1.0).unwrap(), 40.0);
         let gravity = Gravity {
-            acceleration: [0.5, -9.81, 99.0],
+            acceleration: Vector3::new(0.5, -9.81, 99.0),
             factor: Table::constant(1.0),
         };
         let weight = gravity.nodal_forces(&solid.lumped_mass()).unwrap();

@@ -6,6 +6,7 @@ use fe_core::{
     CellKind, Dilatation, FeError, Mesh, RectangleMesh, Solid, Symmetry, solid_block_with,
 };
 use hyperelastic::{ElasticConstants, Material, SaintVenantKirchhoff, ThreeE};
+use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
 use crate::common::{self, blatz_ko, distorted_box, distorted_rectangle, neo_hookean};
@@ -89,8 +90,8 @@ proptest! {
 
 #[test]
 fn patch_test_on_distorted_meshes() {
-    let shear = [[0.2, 0.3, 0.0], [0.1, -0.2, 0.0], [0.0, 0.0, 0.0]];
-    let diagonal = [[0.2, 0.0, 0.0], [0.0, -0.15, 0.0], [0.0; 3]];
+    let shear = Matrix3::new(0.2, 0.3, 0.0, 0.1, -0.2, 0.0, 0.0, 0.0, 0.0);
+    let diagonal = Matrix3::from_diagonal(&Vector3::new(0.2, -0.15, 0.0));
     for (kind, symmetry, _) in BLOCKS {
         let mesh = if kind.dim() == 3 {
             distorted_box([2, 2, 2], kind, 0.2, false)
@@ -113,7 +114,7 @@ fn patch_test_on_distorted_meshes() {
 fn homogeneous_states_are_those_of_the_pointwise_dilatation() {
     for (kind, symmetry, _) in BLOCKS {
         let mesh = distorted(kind, symmetry, 2, true);
-        let map = |x: &[f64; 3]| [0.3 * x[0], -0.2 * x[1], 0.1 * x[2]];
+        let map = |x: &Vector3<f64>| [0.3 * x[0], -0.2 * x[1], 0.1 * x[2]];
         let u = mesh
             .points
             .iter()
@@ -204,7 +205,7 @@ fn linear_dilatation_passes_second_order_cells_unchanged() {
         ),
     ] {
         // J = 1 + .2 x - .1 y
-        let map = |x: &[f64; 3]| [0.1 * x[0] * x[0] - 0.1 * x[0] * x[1], 0.0, 0.0];
+        let map = |x: &Vector3<f64>| [0.1 * x[0] * x[0] - 0.1 * x[0] * x[1], 0.0, 0.0];
         let u: Vec<f64> = (mesh.points.iter())
             .flat_map(|x| map(x).into_iter().take(symmetry.dim()))
             .collect();

@@ -6,6 +6,7 @@ use fe_core::{
     AnnulusMesh, BoxMesh, CellKind, DiscMesh, Facet, FacetKind, HalfBallMesh, HalfDiscMesh, Mesh,
     MeshError, Pole, QuarterDiscMesh, RectangleMesh, Surface, Symmetry,
 };
+use nalgebra::Vector3;
 
 use crate::common::{KINDS, PLANE_KINDS, blatz_ko, distorted_box, distorted_rectangle, solid};
 
@@ -62,7 +63,7 @@ fn rounds(cells: usize, kind: CellKind) -> [(Mesh, &'static [&'static str], f64)
 
 fn half_ball(cells: usize) -> Mesh {
     let shape = HalfBallMesh {
-        center: [2.5, -1.5, 0.5],
+        center: Vector3::new(2.5, -1.5, 0.5),
         radius: RADIUS,
         cells,
         pole: Pole::Down,
@@ -142,7 +143,7 @@ fn boxes_and_rectangles_have_the_nodes_of_the_finer_grid() {
         let mut places: Vec<_> = mesh
             .points
             .iter()
-            .map(|x| x.map(|x| (1e6 * x).round() as i64))
+            .map(|x| [0, 1, 2].map(|i| (1e6 * x[i]).round() as i64))
             .collect();
         places.sort_unstable();
         places
@@ -177,7 +178,7 @@ fn boxes_and_rectangles_have_the_nodes_of_the_finer_grid() {
 #[test]
 fn a_half_ball_of_tetrahedra_is_refused() {
     let shape = HalfBallMesh {
-        center: [0.0; 3],
+        center: Vector3::zeros(),
         radius: 1.0,
         cells: 2,
         pole: Pole::Up,
@@ -196,7 +197,7 @@ fn integrals_of_shape_functions_on_flat_faces() {
     let mesh = |symmetry, points: &[[f64; 3]]| Mesh {
         dim: 3,
         symmetry,
-        points: points.to_vec(),
+        points: points.iter().map(|&x| x.into()).collect(),
         ..Mesh::default()
     };
     let close = |found: &[f64], expected: &[f64]| {

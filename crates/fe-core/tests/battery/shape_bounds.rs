@@ -4,6 +4,7 @@ use fe_core::{
     AnnulusMesh, BoxMesh, CellKind, DiscMesh, HalfBallMesh, HalfDiscMesh, Mesh, MeshError, Pole,
     QuarterDiscMesh, RectangleMesh,
 };
+use nalgebra::Vector3;
 
 #[test]
 fn impossible_shapes_are_refused_with_the_bound() {
@@ -86,7 +87,7 @@ fn impossible_shapes_are_refused_with_the_bound() {
     };
     refuse(quarter.generate("a"), ["quarter disc", "positive"]);
     let ball = HalfBallMesh {
-        center: [0.0; 3],
+        center: Vector3::zeros(),
         radius: 1.0,
         cells: 0,
         pole: Pole::Up,

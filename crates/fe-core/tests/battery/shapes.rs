@@ -7,6 +7,7 @@ use fe_core::{
     AnnulusMesh, CellKind, DiscMesh, Facet, HalfBallMesh, HalfDiscMesh, Mesh, Pole,
     QuarterDiscMesh, RectangleMesh, Surface, Symmetry,
 };
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::{PLANE_KINDS, blatz_ko, solid};
@@ -61,7 +62,7 @@ fn annulus(cells: [usize; 2], grading: f64) -> Mesh {
 
 fn half_ball(cells: usize, pole: Pole) -> Mesh {
     let shape = HalfBallMesh {
-        center: [2.5, -1.5, 0.5],
+        center: Vector3::new(2.5, -1.5, 0.5),
         radius: RADIUS,
         cells,
         pole,
@@ -70,14 +71,8 @@ fn half_ball(cells: usize, pole: Pole) -> Mesh {
     shape.generate("ball").unwrap()
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn triple(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f64 {
-    a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
+fn triple(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> f64 {
+    a.dot(&b.cross(&c))
 }
 
 /// Smallest over all corners of all cells of the determinant of the unit vectors along the edges there, counted in the
@@ -87,11 +82,7 @@ fn worst_corner(mesh: &Mesh) -> f64 {
     let mut worst = f64::INFINITY;
     for cell in block.iter() {
         let x = |a: usize| mesh.points[cell[a] as usize];
-        let along = |from: usize, to: usize| {
-            let d = minus(x(to), x(from));
-            let length = d.iter().map(|d| d * d).sum::<f64>().sqrt();
-            d.map(|d| d / length)
-        };
+        let along = |from: usize, to: usize| (x(to) - x(from)).normalize();
         let n = block.kind.node_count();
         for a in 0..n {
             let volume = if block.kind == CellKind::Hex8 {
@@ -103,7 +94,7 @@ fn worst_corner(mesh: &Mesh) -> f64 {
                 triple(
                     along(a, (a + 1) % n),
                     along(a, (a + n - 1) % n),
-                    [0.0, 0.0, 1.0],
+                    Vector3::z(),
                 )
             };
             worst = worst.min(volume);
@@ -116,7 +107,7 @@ fn worst_corner(mesh: &Mesh) -> f64 {
 fn enclosed(mesh: &Mesh, facets: &[Facet]) -> f64 {
     let x = |n: u32| mesh.points[n as usize];
     let flux = |facet: &Facet| match *facet.nodes() {
-        [a, b] => triple(x(a), x(b), [0.0, 0.0, 1.0]) / 2.0,
+        [a, b] => triple(x(a), x(b), Vector3::z()) / 2.0,
         [a, b, c, d] => {
             // A bilinear patch encloses the mean of its two ways to be cut.
             let cut = |a, b, c| triple(x(a), x(b), x(c)) / 12.0;
@@ -166,7 +157,7 @@ fn check(mesh: &Mesh, sides: &[&str]) {
 fn check_rim(mesh: &Mesh, set: &str, (radius, up): (f64, f64), steps: usize, step: f64) {
     let mut angles = Vec::new();
     for &n in mesh.node_set(set).unwrap() {
-        let d = minus(mesh.points[n as usize], [CENTER[0], CENTER[1], 0.0]);
+        let d = mesh.points[n as usize] - Vector3::new(CENTER[0], CENTER[1], 0.0);
         assert!((d[0].hypot(d[1]) - radius).abs() < 1e-15);
         angles.push((up * d[1] + 0.0).atan2(d[0]));
     }
@@ -320,7 +311,7 @@ fn half_balls() {
             }
             let mesh = half_ball(cells, pole);
             check(&mesh, &["dome", "base"]);
-            let height = |x: &[f64; 3]| sign * (x[2] - 0.5);
+            let height = |x: &Vector3<f64>| sign * (x[2] - 0.5);
             assert!(
                 mesh.points
                     .iter()
@@ -328,8 +319,7 @@ fn half_balls() {
             );
             let dome = mesh.node_set("dome").unwrap();
             for &n in dome {
-                let d = minus(mesh.points[n as usize], [2.5, -1.5, 0.5]);
-                let radius = d.iter().map(|d| d * d).sum::<f64>().sqrt();
+                let radius = (mesh.points[n as usize] - Vector3::new(2.5, -1.5, 0.5)).norm();
                 assert!((radius - RADIUS).abs() < 1e-15);
             }
             let pole = dome.iter().map(|&n| height(&mesh.points[n as usize]));

@@ -2,6 +2,7 @@
 
 use fe_core::surface::current_positions;
 use fe_core::{BoxMesh, CellKind, Facet, Mesh, Motion, Rotation, Surface, Symmetry, Table};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
 use crate::common::KINDS;
@@ -74,7 +75,7 @@ proptest! {
             rotation: Some(Rotation::new([1.0, 2.0, 3.0], axis, Table::constant(angle)).unwrap()),
             ..Motion::still()
         };
-        let u: Vec<f64> = mesh.points.iter().flat_map(|&x| turn.displacement(x, 0.0)).collect();
+        let u: Vec<f64> = mesh.points.iter().flat_map(|&x| <[f64; 3]>::from(turn.displacement(x, 0.0))).collect();
         let mut moved = Vec::new();
         current_positions(&mesh.points, 3, &u, &mut moved);
         let (before, after) = (surface.vertex_normals(&flat(&mesh)), surface.vertex_normals(&moved));
@@ -114,7 +115,7 @@ fn plane_surfaces_are_edges() {
     let mut mesh = Mesh {
         dim: 2,
         symmetry: Symmetry::PlaneStrain,
-        points: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [3.0, 0.0, 0.0]],
+        points: [0.0, 1.0, 3.0].map(|x| Vector3::new(x, 0.0, 0.0)).to_vec(),
         ..Mesh::default()
     };
     let surface = Surface::new(vec![Facet::edge([0, 1]), Facet::edge([1, 2])]).unwrap();
@@ -129,7 +130,7 @@ fn plane_surfaces_are_edges() {
     }
     assert!((areas.iter().sum::<f64>() - 9.0 * std::f64::consts::PI).abs() < 1e-13);
     let normals = surface.vertex_normals(&[0.0, 0.0, 1.0, 0.0, 3.0, 0.0]);
-    assert!(normals.iter().all(|n| *n == [0.0, -1.0, 0.0]));
+    assert!(normals.iter().all(|n| *n == -Vector3::y()));
 }
 
 #[test]

@@ -67,8 +67,8 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             grading,
             element,
         } => BoxMesh {
-            min,
-            max,
+            min: min.into(),
+            max: max.into(),
             cells: cells.map(fine),
             grading,
             kind: solid_kind(element),
@@ -81,7 +81,7 @@ fn generate(mesh: &spec::Mesh, refine: usize, name: &str) -> Result<Mesh, MeshEr
             pole,
             element,
         } => HalfBallMesh {
-            center,
+            center: center.into(),
             radius,
             cells: fine(cells),
             pole,

@@ -1,12 +1,14 @@
 //! Fields of one moment, in plain arrays.
 
+use nalgebra::Vector3;
+
 /// Mesh and fields at one time. Nothing here knows of the solver: any code can fill it.
 #[derive(Clone, Debug)]
 pub struct Frame<'a> {
     /// Time \[s\].
     pub time: f64,
     /// Reference positions \[m\].
-    pub points: &'a [[f64; 3]],
+    pub points: &'a [Vector3<f64>],
     /// Cells in the order of the cell data.
     pub cells: Vec<Cells<'a>>,
     /// Fields with one tuple a point. `displacement` (3 components) is used by pictures.

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use nalgebra::Vector3;
 use proptest::prelude::*;
 use scenarios::catalog;
 use scenarios::output::{
@@ -16,12 +17,11 @@ use crate::vtu_reader::Vtu;
 const HEX: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 const TET: [u32; 4] = [4, 5, 6, 8];
 
-fn points() -> Vec<[f64; 3]> {
-    let mut points: Vec<[f64; 3]> = [(0, 0), (1, 0), (1, 1), (0, 1)]
-        .map(|(x, y)| [x.into(), y.into(), 0.0])
-        .into();
-    points.extend([(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| [x.into(), y.into(), 1.0]));
-    points.push([0.5, 0.5, 2.0]);
+fn points() -> Vec<Vector3<f64>> {
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    let layer = |z: f64| corners.map(|(x, y)| Vector3::new(x, y, z));
+    let mut points = [layer(0.0), layer(1.0)].concat();
+    points.push(Vector3::new(0.5, 0.5, 2.0));
     points
 }
 
@@ -53,7 +53,7 @@ proptest! {
         let vtu = Vtu::read(&vtu_bytes(&frame).unwrap());
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         prop_assert!(vtu.head.contains("NumberOfPoints=\"9\" NumberOfCells=\"2\""));
-        prop_assert_eq!(bits(&vtu.floats("Points")), bits(points.as_flattened()));
+        prop_assert_eq!(bits(&vtu.floats("Points")), bits(&points.iter().flatten().copied().collect::<Vec<_>>()));
         prop_assert_eq!(bits(&vtu.floats("displacement")), bits(&vector));
         prop_assert_eq!(bits(&vtu.floats("TimeValue")), bits(&[time]));
         prop_assert_eq!(vtu.integers("contact_status"), status.iter().map(|s| i64::from(*s)).collect::<Vec<_>>());
@@ -72,8 +72,8 @@ proptest! {
 fn long_arrays_of_several_blocks_read_back() {
     // 131072 bytes a block: less than one, exactly two, two and a bit.
     for count in [1, 32_768, 40_001] {
-        let points: Vec<[f64; 3]> = (0..count)
-            .map(|i| [i as f64, (i as f64).sin(), -1.0])
+        let points: Vec<Vector3<f64>> = (0..count)
+            .map(|i| Vector3::new(i as f64, (i as f64).sin(), -1.0))
             .collect();
         let values: Vec<f64> = (0..count).map(|i| (i as f64).cos()).collect();
         let frame = Frame {
@@ -88,7 +88,10 @@ fn long_arrays_of_several_blocks_read_back() {
         };
         let vtu = Vtu::read(&vtu_bytes(&frame).unwrap());
         assert_eq!(vtu.floats("value"), values);
-        assert_eq!(vtu.floats("Points"), points.as_flattened());
+        assert_eq!(
+            vtu.floats("Points"),
+            points.iter().flatten().copied().collect::<Vec<_>>()
+        );
         assert!(vtu.integers("connectivity").is_empty());
     }
 }

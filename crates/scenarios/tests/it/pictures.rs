@@ -1,5 +1,6 @@
 //! Pictures: what must be in them. How they look is for eyes: they stay in the folder of the test.
 
+use nalgebra::Vector3;
 use scenarios::catalog;
 use scenarios::output::{
     Array, CellShape, Cells, Energies, Force, Frame, Results, Row, Summary, Values,
@@ -8,7 +9,7 @@ use scenarios::output::{
 use crate::fresh_folder;
 
 /// A bent block of n x n x n cells standing on a larger one.
-fn blocks(n: usize) -> (Vec<[f64; 3]>, Vec<u32>, Vec<f64>, Vec<f64>) {
+fn blocks(n: usize) -> (Vec<Vector3<f64>>, Vec<u32>, Vec<f64>, Vec<f64>) {
     let mut points = Vec::new();
     let mut cells = Vec::new();
     let mut bend = Vec::new();
@@ -70,7 +71,12 @@ fn blocks(n: usize) -> (Vec<[f64; 3]>, Vec<u32>, Vec<f64>, Vec<f64>) {
         1330.0 * (-1.5 * d2).exp()
     });
     let stress = stress.collect();
-    (points, cells, bend, stress)
+    (
+        points.into_iter().map(Vector3::from).collect(),
+        cells,
+        bend,
+        stress,
+    )
 }
 
 #[test]
@@ -177,7 +183,8 @@ fn a_frame_without_cells_or_stress_is_drawn_too() {
         [1.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],
         [0.0, 0.0, 1.0],
-    ];
+    ]
+    .map(Vector3::from);
     let frame = Frame {
         time: 1e-7,
         points: &points,

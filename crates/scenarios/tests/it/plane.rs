@@ -2,6 +2,7 @@
 
 mod refusals;
 
+use nalgebra::Vector3;
 use scenarios::build::build;
 use scenarios::output::{Array, CellShape, Cells, Frame, History, Status, Values, deformed_svg};
 use scenarios::spec::{LoadedScene, SceneError, Symmetry, parse};
@@ -222,7 +223,8 @@ fn a_plane_picture_is_flat_and_to_scale() {
         [4.0, 0.0, 0.0],
         [4.0, 2.0, 0.0],
         [2.0, 2.0, 0.0],
-    ];
+    ]
+    .map(Vector3::from);
     let frame = Frame {
         time: 0.0,
         points: &points,

@@ -240,14 +240,14 @@ proptest! {
         let before = detector.detect(&scene.positions, 0.0, 1.0);
         let motion = turned(axis, angle, shift);
         for x in scene.positions.chunks_exact_mut(3) {
-            let moved = motion.position([x[0], x[1], x[2]], 0.0);
-            x.copy_from_slice(&moved);
+            let moved = motion.position([x[0], x[1], x[2]].into(), 0.0);
+            x.copy_from_slice(moved.as_slice());
         }
         let after = detector.detect(&scene.positions, 0.0, 1.0);
         prop_assert_eq!(before.len(), after.len());
         for (a, b) in before.contacts.iter().zip(&after.contacts) {
             prop_assert!((a.gap - b.gap).abs() < 1e-13);
-            let normal = motion.rotate(a.normal(), 0.0);
+            let normal = motion.rotate(a.normal().into(), 0.0).into();
             // Between two equally close facets of a valley round-off may choose.
             if a.facet == b.facet {
                 prop_assert!(norm(sub(normal, b.normal())) < 1e-10);
@@ -264,7 +264,7 @@ proptest! {
         let mut scene = grid(5, 5, triangles, flat, &[x]);
         let motion = turned(axis, angle, [0.0; 3]);
         for x in scene.positions.chunks_exact_mut(3) {
-            x.copy_from_slice(&motion.position([x[0], x[1], x[2]], 0.0));
+            x.copy_from_slice(motion.position([x[0], x[1], x[2]].into(), 0.0).as_slice());
         }
         let mut detector = scene.detector(0.3);
         let map = detector.detect(&scene.positions, 0.0, 1.0);

@@ -98,22 +98,22 @@ proptest! {
         let still = Obstacle::new(shape, Motion::still()).unwrap();
         let moving = Obstacle::new(shape, motion.clone()).unwrap();
         let before = still.over_step(0.0, t).closest(x, CORE);
-        let after = moving.over_step(t, t).closest(motion.position(x, t), CORE);
+        let after = moving.over_step(t, t).closest(motion.position(x.into(), t).into(), CORE);
         prop_assert!((before.gap - after.gap).abs() < 1e-13);
-        prop_assert!(norm(sub(motion.rotate(before.normal, t), after.normal)) < 1e-10);
-        prop_assert!(norm(sub(motion.position(before.point, t), after.point)) < 1e-10);
+        prop_assert!(norm(sub(motion.rotate(before.normal.into(), t).into(), after.normal)) < 1e-10);
+        prop_assert!(norm(sub(motion.position(before.point.into(), t).into(), after.point)) < 1e-10);
     }
 
     #[test]
     fn displacement_is_that_of_the_material_point(motion in motion(), x in vector(3.0), t0 in 0.0f64..0.5, t1 in 0.5f64..1.0) {
         let plane = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
         let obstacle = Obstacle::new(plane, motion.clone()).unwrap();
-        let moved = obstacle.over_step(t0, t1).displacement(motion.position(x, t1));
-        prop_assert!(norm(sub(moved, sub(motion.position(x, t1), motion.position(x, t0)))) < 1e-13);
+        let moved = obstacle.over_step(t0, t1).displacement(motion.position(x.into(), t1).into());
+        prop_assert!(norm(sub(moved, sub(motion.position(x.into(), t1).into(), motion.position(x.into(), t0).into()))) < 1e-13);
         // A rate exists: over a short step the displacement is velocity times step.
         let dt = 1e-6;
-        let short = obstacle.over_step(t1 - dt, t1).displacement(motion.position(x, t1));
-        prop_assert!(norm(sub(scale(1.0 / dt, short), motion.velocity(x, t1 - 0.5 * dt))) < 1e-7);
+        let short = obstacle.over_step(t1 - dt, t1).displacement(motion.position(x.into(), t1).into());
+        prop_assert!(norm(sub(scale(1.0 / dt, short), motion.velocity(x.into(), t1 - 0.5 * dt).into())) < 1e-7);
     }
 }
 

@@ -1,5 +1,7 @@
 //! Rings.
 
+use nalgebra::Vector3;
+
 use super::axis::Run;
 use super::{
     check_kind, into_kind, name_side, require, require_cells, require_finite, require_indices,
@@ -43,11 +45,8 @@ impl AnnulusMesh {
         let rim = |&radius: &f64| {
             (0..around).map(move |k| {
                 let d = direction(k, around);
-                [
-                    self.center[0] + radius * d[0],
-                    self.center[1] + radius * d[1],
-                    0.0,
-                ]
+                let [x, y] = self.center;
+                Vector3::new(x + radius * d[0], y + radius * d[1], 0.0)
             })
         };
         let points = radii.iter().flat_map(rim).collect();
@@ -68,7 +67,7 @@ impl AnnulusMesh {
         name_side(&mut mesh, &boundary, "inner", |n| n < around);
         name_side(&mut mesh, &boundary, "outer", |n| n >= around * through);
         let [x, y] = self.center;
-        into_kind(mesh, self.kind, [x, y, 0.0], |_| true)
+        into_kind(mesh, self.kind, Vector3::new(x, y, 0.0), |_| true)
     }
 
     fn check(&self) -> Result<(), MeshError> {

@@ -1,5 +1,7 @@
 //! Boxes.
 
+use nalgebra::Vector3;
+
 use super::axis::GridAxis;
 use super::grid::GridMesh;
 use super::{check_grid, check_kind};
@@ -13,9 +15,9 @@ use crate::mesh::{CellKind, Mesh};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxMesh {
     /// Lowest corner \[m\].
-    pub min: [f64; 3],
+    pub min: Vector3<f64>,
     /// Highest corner \[m\].
-    pub max: [f64; 3],
+    pub max: Vector3<f64>,
     /// Bricks per axis.
     pub cells: [usize; 3],
     /// Size of the last brick over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
@@ -26,10 +28,14 @@ pub struct BoxMesh {
 
 impl BoxMesh {
     /// A box of equal hexahedra.
-    pub fn uniform(min: [f64; 3], max: [f64; 3], cells: [usize; 3]) -> BoxMesh {
+    pub fn uniform(
+        min: impl Into<Vector3<f64>>,
+        max: impl Into<Vector3<f64>>,
+        cells: [usize; 3],
+    ) -> BoxMesh {
         BoxMesh {
-            min,
-            max,
+            min: min.into(),
+            max: max.into(),
             cells,
             grading: [1.0; 3],
             kind: CellKind::Hex8,
@@ -48,7 +54,8 @@ impl BoxMesh {
     /// more nodes than 32-bit indices can address; [`MeshError::CellDimension`] for plane cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         check_kind(block, self.kind, 3)?;
-        check_grid("box", &self.min, &self.max, &self.cells, &self.grading)?;
+        let (min, max) = (self.min.as_slice(), self.max.as_slice());
+        check_grid("box", min, max, &self.cells, &self.grading)?;
         let axis = |i| GridAxis::graded(self.min[i], self.max[i], self.cells[i], self.grading[i]);
         let grid = GridMesh {
             axes: (0..3).map(axis).collect(),

@@ -1,10 +1,11 @@
 //! Discs, half discs and quarter discs.
 
+use nalgebra::Vector3;
+
 use super::o_grid::OGrid;
 use super::{Pole, RectangleMesh, check_kind, name_side, require_cells, require_indices};
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Mesh};
-use crate::vector::{dot, minus};
 
 /// A disc of quadrilaterals around a square core, or each cut into two triangles.
 ///
@@ -73,11 +74,8 @@ impl DiscMesh {
             kind: self.kind,
         };
         let mut mesh = part.generate(block, [-1.0; 2], [n; 2], n)?;
-        let center = [self.center[0], self.center[1], 0.0];
-        let distance = |x: &[f64; 3]| {
-            let d = minus(x, &center);
-            dot(&d, &d)
-        };
+        let center = Vector3::new(self.center[0], self.center[1], 0.0);
+        let distance = |x: &Vector3<f64>| (x - center).norm_squared();
         let distances = mesh.points.iter().map(distance).enumerate();
         let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1));
         let nodes = nearest.map(|(node, _)| node as u32).into_iter().collect();
@@ -160,7 +158,7 @@ impl Part {
         require_indices(self.shape, cells[0] as f64 * cells[1] as f64)?;
         let grid = OGrid {
             shape: self.shape,
-            center: [self.center[0], self.center[1], 0.0],
+            center: Vector3::new(self.center[0], self.center[1], 0.0),
             radius: self.radius,
             pole: self.pole,
             quarter,

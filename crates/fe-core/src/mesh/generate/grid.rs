@@ -1,5 +1,7 @@
 //! Rectilinear meshes: lines along x, y and z.
 
+use nalgebra::Vector3;
+
 use super::axis::GridAxis;
 use super::{
     check_kind, name_side, of_degree, require, require_indices, require_positive, single_block,
@@ -104,7 +106,8 @@ impl GridMesh {
             heights().fold(f64::MAX, f64::min),
             heights().fold(f64::MIN, f64::max),
         );
-        let drop = |x: &[f64; 3]| x[..up].iter().map(|x| x * x).sum::<f64>() / (2.0 * radius);
+        let drop =
+            |x: &Vector3<f64>| x.iter().take(up).map(|x| x * x).sum::<f64>() / (2.0 * radius);
         let deepest = mesh.points.iter().map(drop).fold(0.0, f64::max);
         require(
             deepest < top - bottom,
@@ -120,11 +123,11 @@ impl GridMesh {
     }
 }
 
-fn points([xs, ys, zs]: &[Vec<f64>; 3]) -> Vec<[f64; 3]> {
+fn points([xs, ys, zs]: &[Vec<f64>; 3]) -> Vec<Vector3<f64>> {
     let mut points = Vec::with_capacity(xs.len() * ys.len() * zs.len());
     for &z in zs {
         for &y in ys {
-            points.extend(xs.iter().map(|&x| [x, y, z]));
+            points.extend(xs.iter().map(|&x| Vector3::new(x, y, z)));
         }
     }
     points

@@ -1,5 +1,7 @@
 //! Half balls.
 
+use nalgebra::Vector3;
+
 use super::disc::name_plane;
 use super::o_grid::OGrid;
 use super::{BoxMesh, Pole, check_shape_kind, require_cells, require_indices};
@@ -12,7 +14,7 @@ use crate::mesh::{CellKind, Mesh};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfBallMesh {
     /// Centre \[m\], on the base.
-    pub center: [f64; 3],
+    pub center: Vector3<f64>,
     /// Radius \[m\].
     pub radius: f64,
     /// Cells per quarter of a great circle; an odd number is raised to the next even one.

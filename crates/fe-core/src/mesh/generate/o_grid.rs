@@ -2,12 +2,13 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use nalgebra::Vector3;
+
 use super::{
     Pole, into_kind, name_side, require_finite, require_indices, require_positive, single_block,
 };
 use crate::error::MeshError;
 use crate::mesh::{CellKind, Facet, Mesh};
-use crate::vector::unit;
 
 /// Distance of the core's corners from the centre, in radii.
 const CORE: f64 = 0.6;
@@ -19,7 +20,7 @@ const BULGE: f64 = 1.0 / 3.0;
 #[derive(Debug)]
 pub(super) struct OGrid {
     pub(super) shape: &'static str,
-    pub(super) center: [f64; 3],
+    pub(super) center: Vector3<f64>,
     pub(super) radius: f64,
     pub(super) pole: Pole,
     /// Cells of a quarter of the rim.
@@ -35,7 +36,7 @@ pub(super) struct OGrid {
 impl OGrid {
     /// Builds the mesh with the rim named.
     pub(super) fn generate(self, block: &str) -> Result<Mesh, MeshError> {
-        require_finite(self.shape, &self.center)?;
+        require_finite(self.shape, self.center.as_slice())?;
         require_positive(self.shape, "radius [m]", self.radius)?;
         let xi = &self.core.points;
         let faces: Vec<Facet> = self.core.boundary_facets();
@@ -48,7 +49,7 @@ impl OGrid {
         let nodes = xi.len() as f64 + outer.len() as f64 * layers as f64;
         require_indices(self.shape, nodes)?;
 
-        let mut points: Vec<[f64; 3]> = xi
+        let mut points: Vec<Vector3<f64>> = xi
             .iter()
             .map(|xi| self.place(core_point(xi, self.core.dim)))
             .collect();
@@ -57,8 +58,7 @@ impl OGrid {
             for &node in &outer {
                 let xi = &xi[node as usize];
                 let (from, to) = (core_point(xi, self.core.dim), rim_point(xi));
-                let between = std::array::from_fn(|i| (1.0 - t) * from[i] + t * to[i]);
-                points.push(self.place(between));
+                points.push(self.place((1.0 - t) * from + t * to));
             }
         }
         let cells = self.cells(&faces, &outer, layers);
@@ -71,12 +71,12 @@ impl OGrid {
     }
 
     /// From the unit circle or ball to its place \[m\].
-    fn place(&self, mut x: [f64; 3]) -> [f64; 3] {
+    fn place(&self, mut x: Vector3<f64>) -> Vector3<f64> {
         if self.pole == Pole::Down {
             let last = self.core.dim - 1;
             x[last] = -x[last];
         }
-        std::array::from_fn(|i| self.center[i] + self.radius * x[i])
+        self.center + self.radius * x
     }
 
     fn cells(&self, faces: &[Facet], outer: &[u32], layers: usize) -> Vec<u32> {
@@ -116,24 +116,24 @@ impl OGrid {
 }
 
 /// True if a facet of the core lies at 1 or -1 in some coordinate.
-fn faces_rim(facet: &Facet, xi: &[[f64; 3]]) -> bool {
+fn faces_rim(facet: &Facet, xi: &[Vector3<f64>]) -> bool {
     let side = |i: usize, at: f64| facet.nodes().iter().all(|&n| xi[n as usize][i] == at);
     (0..3).any(|i| side(i, 1.0) || side(i, -1.0))
 }
 
 /// Place of a core point in the unit circle or ball: between a square (cube) and the circle (sphere) through its corners.
-fn core_point(xi: &[f64; 3], dim: usize) -> [f64; 3] {
+fn core_point(xi: &Vector3<f64>, dim: usize) -> Vector3<f64> {
     let flat = 1.0 / (dim as f64).sqrt();
     let bulged = |coordinates: f64| CORE * (flat + BULGE * (1.0 / coordinates.sqrt() - flat));
     // First coordinate in the middle of a face, in the middle of an edge, and at a corner.
     let (face, edge, corner) = (bulged(1.0), bulged(2.0), bulged(3.0));
-    std::array::from_fn(|i| {
+    Vector3::from_fn(|i, _| {
         let (s, t) = (xi[(i + 1) % 3].powi(2), xi[(i + 2) % 3].powi(2));
         xi[i] * (face + (edge - face) * (s + t) + (corner - 2.0 * edge + face) * s * t)
     })
 }
 
 /// Place on the unit circle or sphere; equal steps along a side become equal angles.
-fn rim_point(xi: &[f64; 3]) -> [f64; 3] {
-    unit(&xi.map(|xi| (FRAC_PI_4 * xi).tan()))
+fn rim_point(xi: &Vector3<f64>) -> Vector3<f64> {
+    xi.map(|xi| (FRAC_PI_4 * xi).tan()).normalize()
 }

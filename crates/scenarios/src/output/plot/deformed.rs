@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Vector3;
 use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
@@ -79,7 +80,7 @@ fn short(value: f64) -> String {
 
 fn deformed_points(frame: &Frame<'_>) -> Vec<[f64; 3]> {
     let displacement = frame.point_vector("displacement");
-    let moved = |(i, x): (usize, &[f64; 3])| {
+    let moved = |(i, x): (usize, &Vector3<f64>)| {
         let u = displacement
             .and_then(|u| u.get(3 * i..3 * i + 3))
             .unwrap_or(&[0.0; 3]);

@@ -168,7 +168,7 @@ fn numbers(n: usize) -> impl Strategy<Value = Vec<f64>> {
 
 fn moved(positions: &mut [f64], motion: &Motion) {
     for x in positions.chunks_exact_mut(2) {
-        x.copy_from_slice(&motion.position([x[0], x[1], 0.0], 0.0)[..2]);
+        x.copy_from_slice(&motion.position([x[0], x[1], 0.0].into(), 0.0).as_slice()[..2]);
     }
 }
 
@@ -313,7 +313,7 @@ proptest! {
         let u = &u[..chain.positions.len()];
         let mut v = u.to_vec();
         for x in v.chunks_exact_mut(2) {
-            x.copy_from_slice(&turn.rotate([x[0], x[1], 0.0], 0.0)[..2]);
+            x.copy_from_slice(&turn.rotate([x[0], x[1], 0.0].into(), 0.0).as_slice()[..2]);
         }
         let (mut x, mut y) = (vec![0.0; before.row_count()], vec![0.0; after.row_count()]);
         before.apply(u, &mut x);
@@ -322,7 +322,7 @@ proptest! {
             prop_assert!((a.gap - b.gap).abs() < 1e-14);
             if a.facet == b.facet {
                 for i in 0..3 {
-                    prop_assert!(norm(sub(motion.rotate(a.frame[i], 0.0), b.frame[i])) < 1e-12);
+                    prop_assert!(norm(sub(motion.rotate(a.frame[i].into(), 0.0).into(), b.frame[i])) < 1e-12);
                 }
                 prop_assert!((x[2 * k] - y[2 * k]).abs() + (x[2 * k + 1] - y[2 * k + 1]).abs() < 1e-12);
             }

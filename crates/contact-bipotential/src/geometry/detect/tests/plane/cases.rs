@@ -9,14 +9,14 @@ proptest! {
         radius in 0.1f64..2.0, angle in -3.0f64..3.0, shift in [-1.0f64..1.0, -1.0f64..1.0], depth in -5.0f64..5.0,
     ) {
         let motion = turned([0.0, 0.0, 1.0], angle, [shift[0], shift[1], 0.0]);
-        let at = motion.position([p[0], p[1], 0.0], 0.0);
+        let at = motion.position([p[0], p[1], 0.0].into(), 0.0);
         let (sin, cos) = heading.sin_cos();
         let shapes = [
             Shape::Plane { point: [p[0], p[1], depth], normal: [cos, sin, 0.0] },
             Shape::Sphere { center: [p[0], p[1], 0.0], radius },
             Shape::Cylinder { point: [p[0], p[1], depth], axis: [0.0, 0.0, depth], radius },
         ];
-        let arm = sub([x[0], x[1], 0.0], at);
+        let arm = sub([x[0], x[1], 0.0], at.into());
         let (sin, cos) = (heading + angle).sin_cos();
         let level = (cos * arm[0] + sin * arm[1], [cos, sin, 0.0]);
         let round = (norm(arm) - radius, unit(arm).unwrap());
