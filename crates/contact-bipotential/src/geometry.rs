@@ -1,18 +1,19 @@
 //! Who touches whom: interfaces, search, facets, obstacles, and the kinematics `H` between nodes and contacts.
 
-mod carry;
+mod contact;
 mod detect;
 mod error;
 pub mod facet;
-pub mod frame;
 mod interface;
 mod kinematics;
+mod material_frame;
 mod obstacle;
-mod vec3;
+mod vector;
 
-pub use carry::material_axes;
+pub use contact::{Contact, ContactKey, Stencil};
 pub use detect::{DetectionCounters, Detector};
 pub use error::GeometryError;
-pub use interface::{Interface, Master, RIM_TOLERANCE};
-pub use kinematics::{CompliancePart, Contact, ContactMap, FrameRule, Stencil};
+pub use interface::{Interface, Master, RIM_ROUND_OFF};
+pub use kinematics::{CompliancePart, ContactMap, FrameRule};
+pub use material_frame::material_frame;
 pub use obstacle::{Obstacle, PlacedObstacle, Shape};

@@ -1,7 +1,9 @@
 //! Bonds from step to step: what a slave node remembers, turned with its master's material.
 
-use contact_bipotential::frame::{to_global, to_local};
-use contact_bipotential::{Bond, BondStep, Contact, ContactMap, Interface, Master, material_axes};
+use contact_bipotential::{
+    Bond, BondStep, Contact, ContactKey, ContactMap, Interface, Master, material_frame,
+};
+use nalgebra::{Matrix3, Vector3};
 
 use crate::contact::{ContactMemory, describe};
 use crate::error::{NscdError, StepFailure};
@@ -89,37 +91,29 @@ fn stored_axes(
     contact: &Contact,
     node: &NodeBond,
     positions: &[f64],
-) -> [[f64; 3]; 3] {
+) -> Matrix3<f64> {
     let interface = &frame.model.interfaces[contact.interface];
     let dim = frame.model.solid.dim();
-    let axes = |t| material_axes(interface, node.facet, positions, dim, t);
+    let axes = |t| material_frame(interface, node.facet, positions, dim, t);
     let (then, end) = (axes(frame.now.time), axes(frame.end()));
-    let before = state_before(frame.now, (contact.interface, contact.slave_index));
+    let before = state_before(frame.now, contact.key());
     match (&interface.master, before) {
-        (Master::Obstacle(_), Some(before)) => {
-            before.frame.map(|d| to_global(&end, to_local(&then, d)))
-        }
+        (Master::Obstacle(_), Some(before)) => end * then.tr_mul(&before.frame),
         _ => end,
     }
 }
 
 /// A tangential vector with components in the axes `from` (two tangents and their normal), in the axes `to`: turned with the
 /// normal the shortest way, so that there and back is nothing.
-fn turned(components: [f64; 2], from: &[[f64; 3]; 3], to: &[[f64; 3]; 3]) -> [f64; 2] {
-    let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
-        std::array::from_fn(|i| {
-            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-            a[j] * b[k] - a[k] * b[j]
-        })
-    };
-    let v = to_global(from, [components[0], components[1], 0.0]);
-    let axis = cross(from[2], to[2]);
-    let cosine: f64 = (0..3).map(|i| from[2][i] * to[2][i]).sum();
+fn turned(components: [f64; 2], from: &Matrix3<f64>, to: &Matrix3<f64>) -> [f64; 2] {
+    let v = from * Vector3::new(components[0], components[1], 0.0);
+    let axis = from.column(2).cross(&to.column(2));
+    let cosine = from.column(2).dot(&to.column(2));
     // Opposite normals have no shortest way; such a pair has nothing to do with the one before.
     let scale = 1.0 / (1.0 + cosine).max(1e-3);
-    let once = cross(axis, v);
-    let twice = cross(axis, once);
-    let turned = to_local(to, [0, 1, 2].map(|i| v[i] + once[i] + scale * twice[i]));
+    let once = axis.cross(&v);
+    let twice = axis.cross(&once);
+    let turned = to.tr_mul(&(v + once + scale * twice));
     [turned[0], turned[1]]
 }
 
@@ -141,7 +135,7 @@ pub(crate) fn carry_on(
         let end = step.finish(&in_frame(x));
         let axes = match interface.master {
             Master::Obstacle(_) => c.frame,
-            Master::Surface(_) => material_axes(
+            Master::Surface(_) => material_frame(
                 interface,
                 c.facet,
                 positions,
@@ -191,13 +185,8 @@ impl Stepper<'_> {
                 continue;
             };
             for (slave_index, bond) in now.bonds[k].iter().enumerate() {
-                let found = |c: &Contact| (c.interface, c.slave_index);
-                if bond.in_frame(bond.separation).holds(law)
-                    && map
-                        .contacts
-                        .binary_search_by_key(&(k, slave_index), found)
-                        .is_err()
-                {
+                let key = ContactKey::new(k, slave_index);
+                if bond.in_frame(bond.separation).holds(law) && map.find(key).is_none() {
                     self.counters.lost_bonds += 1;
                 }
             }
@@ -255,7 +244,7 @@ impl ContactMemory {
 
 #[cfg(test)]
 mod tests {
-    use contact_bipotential::frame::frame_from_normal;
+    use contact_bipotential::FrameRule;
     use proptest::prelude::*;
 
     use super::*;
@@ -266,13 +255,10 @@ mod tests {
         fn there_and_back_is_nothing(
             from in prop::array::uniform3(-1.0..1.0_f64), tilt in prop::array::uniform3(-0.4..0.4_f64), v in prop::array::uniform2(-1.0..1.0_f64),
         ) {
-            let unit = |n: [f64; 3]| {
-                let length = n.iter().map(|x| x * x).sum::<f64>().sqrt();
-                (length > 0.5).then(|| n.map(|x| x / length))
-            };
-            let (n, m) = (unit(from), unit([0, 1, 2].map(|i| from[i] + tilt[i])));
-            prop_assume!(n.is_some() && m.is_some());
-            let (from, to) = (frame_from_normal(n.unwrap_or_default()), frame_from_normal(m.unwrap_or_default()));
+            let (from, tilt) = (Vector3::from(from), Vector3::from(tilt));
+            prop_assume!(from.norm() > 0.5 && (from + tilt).norm() > 0.5);
+            let (n, m) = (from.normalize(), (from + tilt).normalize());
+            let (from, to) = (FrameRule::spatial(n).at(n), FrameRule::spatial(m).at(m));
             let mut back = v;
             for _ in 0..100 {
                 let there = turned(back, &from, &to);

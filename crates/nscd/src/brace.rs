@@ -4,7 +4,8 @@
 //! it buckle if nothing were there. A spring along the normal of a closed contact changes nothing of the solution: there the
 //! normal motion is known beforehand, it closes what gap is left.
 
-use contact_bipotential::{Contact, ContactMap};
+use contact_bipotential::{Contact, ContactKey, ContactMap};
+use nalgebra::Vector3;
 
 use crate::trial::Trial;
 
@@ -14,11 +15,10 @@ const STIFFNESS: f64 = 10.0;
 /// A spring along the normal of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Brace {
-    /// Interface and position among its slaves.
-    key: (usize, usize),
+    key: ContactKey,
     /// Slave node.
     node: u32,
-    normal: [f64; 3],
+    normal: Vector3<f64>,
     /// Zero until it is in a matrix [N/m].
     stiffness: f64,
 }
@@ -29,7 +29,7 @@ pub(crate) fn braces(trial: &Trial, cone: usize) -> Vec<Brace> {
     let pressed = trial.map.contacts.iter().zip(forces);
     let pressed = pressed.filter(|(c, r)| r[cone - 1] > 0.0 && c.stencil.nodes().len() == 1);
     let brace = |(c, _): (&Contact, &[f64])| Brace {
-        key: (c.interface, c.slave_index),
+        key: c.key(),
         node: c.slave,
         normal: c.normal(),
         stiffness: 0.0,
@@ -59,8 +59,7 @@ impl Brace {
 
     /// What the spring does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no force.
     pub(crate) fn load(&self, map: &ContactMap, x: &[f64], r: &[f64], rhs: &mut [f64]) {
-        let found = |c: &Contact| (c.interface, c.slave_index);
-        let Ok(k) = map.contacts.binary_search_by_key(&self.key, found) else {
+        let Some(k) = map.find(self.key) else {
             return;
         };
         let (dim, normal) = (map.dim(), (k + 1) * map.cone().dim() - 1);
@@ -76,20 +75,18 @@ impl Brace {
 mod tests {
     use super::*;
     use contact_bipotential::{Cone, Stencil};
+    use nalgebra::Matrix3;
 
     /// Node 1 of a mesh of two in the plane, pressed along a slanted normal.
     fn pressed(gap: f64) -> (ContactMap, [f64; 2]) {
         let (s, c) = 0.4_f64.sin_cos();
-        let contact = Contact {
-            interface: 0,
-            slave: 1,
-            slave_index: 3,
-            stencil: Stencil::rigid(1),
-            frame: [[0.0, 0.0, 1.0], [c, -s, 0.0], [s, c, 0.0]],
-            gap,
-            facet: None,
-            obstacle_motion: [0.0; 3],
-        };
+        let axes = [
+            Vector3::z(),
+            Vector3::new(c, -s, 0.0),
+            Vector3::new(s, c, 0.0),
+        ];
+        let frame = Matrix3::from_columns(&axes);
+        let contact = Contact::new(ContactKey::new(0, 3), Stencil::rigid(1), frame, gap);
         (
             ContactMap::new(vec![contact], 2, Cone::Frictionless),
             [s, c],
@@ -112,7 +109,7 @@ mod tests {
         let tangent = [[1.0, -2.0], [-2.0, -0.5]];
         let mut matrix = tangent;
         let mut brace = Brace {
-            key: (0, 3),
+            key: ContactKey::new(0, 3),
             node: 1,
             normal: map.contacts[0].normal(),
             stiffness: 0.0,
@@ -152,7 +149,7 @@ mod tests {
     fn a_contact_without_force_has_no_spring_in_the_load() {
         let (map, _) = pressed(0.1);
         let brace = Brace {
-            key: (0, 3),
+            key: ContactKey::new(0, 3),
             node: 1,
             normal: map.contacts[0].normal(),
             stiffness: 1.0,

@@ -138,12 +138,12 @@ impl Hull {
         let on = 4.0 * back.iter().map(|b| b * b).sum::<f64>();
         let [mut side, mut other, mut bare] = [f64::INFINITY; 3];
         for (facet, kind) in self.boundary.facets.iter().zip(&self.kinds) {
-            let mut corners = [[0.0; 3]; 4];
+            let mut corners = [Vector3::zeros(); 4];
             let nodes = facet.nodes();
             for (corner, n) in corners.iter_mut().zip(nodes) {
-                *corner = point(x, dim, *n);
+                *corner = point(x, dim, *n).into();
             }
-            let d = closest_point(&corners[..nodes.len()], at).distance_squared;
+            let d = closest_point(&corners[..nodes.len()], at.into()).distance_squared;
             match kind {
                 Kind::Side => side = side.min(d),
                 Kind::Other if d > on => other = other.min(d),

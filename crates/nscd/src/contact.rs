@@ -3,8 +3,8 @@
 use contact_bipotential::local::local_axes;
 use contact_bipotential::solve::frozen;
 use contact_bipotential::{
-    BondStep, CompliancePart, Cone, Contact, ContactMap, ContactProblem, Delassus, Interface,
-    SequenceSolver, SolveSettings,
+    BondStep, CompliancePart, Cone, Contact, ContactKey, ContactMap, ContactProblem, Delassus,
+    Interface, SequenceSolver, SolveSettings,
 };
 use faer::Mat;
 
@@ -91,9 +91,8 @@ impl ContactMemory {
         let cone = self.cone;
         for (interface, forces) in self.forces.iter().enumerate() {
             for (slave_index, r) in forces.chunks_exact(cone).enumerate() {
-                let key = (interface, slave_index);
-                let found = |c: &Contact| (c.interface, c.slave_index);
-                if r[cone - 1] > 0.0 && map.contacts.binary_search_by_key(&key, found).is_err() {
+                let key = ContactKey::new(interface, slave_index);
+                if r[cone - 1] > 0.0 && map.find(key).is_none() {
                     let lost = &mut self.lost[interface][slave_index];
                     *lost = lost.saturating_add(1);
                 }

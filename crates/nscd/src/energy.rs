@@ -2,6 +2,8 @@
 
 use contact_bipotential::local::local_axes;
 
+use nalgebra::Vector3;
+
 use crate::bonds::{adhesive_energy, carry_on};
 use crate::law::{in_frame, relative_displacement, relative_velocity, state_before};
 use crate::model::point;
@@ -169,9 +171,9 @@ fn contact_terms(
     for (k, c) in trial.map.contacts.iter().enumerate() {
         let r = in_frame(&trial.r[cone * k..cone * (k + 1)]);
         let dx = in_frame(&moved[cone * k..cone * (k + 1)]);
-        let bond = contacts[k].bond.map_or([0.0; 3], |bond| bond.force);
+        let bond = contacts[k].bond.map_or(Vector3::zeros(), |bond| bond.force);
         let slip = contacts[k].slip;
-        terms.load_work += dot(&global_force(&contacts[k]), &c.obstacle_motion);
+        terms.load_work += contacts[k].global_force().dot(&c.obstacle_motion);
         terms.friction -= (r[0] - bond[0]) * slip[0] + (r[1] - bond[1]) * slip[1];
         match frame.model.scheme.contact {
             ContactLevel::Velocity => {
@@ -181,7 +183,7 @@ fn contact_terms(
                 terms.gap_error += r[2] * (way - dx[2]);
             }
             ContactLevel::Position => {
-                let before = state_before(frame.now, (c.interface, c.slave_index));
+                let before = state_before(frame.now, c.key());
                 let closing = before.map_or(c.gap - dx[2], |b| b.gap) - c.gap;
                 terms.impact += (r[2] - bond[2]) * closing;
                 let told = r[0] * slip[0] + r[1] * slip[1] - r[2] * closing;
@@ -219,10 +221,6 @@ fn bond_terms(frame: &StepFrame<'_>, trial: &Trial, adhesive: f64, terms: &mut E
     }
 }
 
-fn global_force(contact: &ContactState) -> [f64; 3] {
-    std::array::from_fn(|i| (0..3).map(|k| contact.force[k] * contact.frame[k][i]).sum())
-}
-
 fn contact_states(
     frame: &StepFrame<'_>,
     trial: &Trial,
@@ -234,7 +232,7 @@ fn contact_states(
     let contacts = trial.map.contacts.iter().enumerate();
     contacts
         .map(|(k, c)| {
-            let (mut force, mut motion) = ([0.0; 3], [0.0; 3]);
+            let (mut force, mut motion) = (Vector3::zeros(), [0.0; 3]);
             for (i, &axis) in local_axes(cone).iter().enumerate() {
                 force[axis] = trial.r[cone * k + i];
                 motion[axis] = moved[cone * k + i];
@@ -251,11 +249,10 @@ fn contact_states(
                 BondState {
                     intensity: at.intensity,
                     separation: bond.finish(&x).separation,
-                    force: at.force,
+                    force: at.force.into(),
                 }
             });
-            let pull = bond.map_or([0.0; 3], |bond| bond.force);
-            let dry: [f64; 3] = std::array::from_fn(|i| force[i] - pull[i]);
+            let dry = force - bond.map_or(Vector3::zeros(), |bond| bond.force);
             let on_cone = dry[0].hypot(dry[1]) >= mu * dry[2] * (1.0 - 1e-9);
             let status = if dry[2] <= 1e-12 * force_scale {
                 ContactStatus::Open
@@ -288,7 +285,7 @@ fn interface_resultants(
 ) -> Vec<Resultant> {
     let mut sums = vec![Resultant::default(); count];
     for c in contacts {
-        sums[c.interface].add(global_force(c), point(positions, dim, c.node));
+        sums[c.interface].add(c.global_force().into(), point(positions, dim, c.node));
     }
     sums
 }

@@ -2,7 +2,7 @@
 
 use contact_bipotential::cone::project;
 use contact_bipotential::local::local_axes;
-use contact_bipotential::{BondStep, Contact, ContactMap};
+use contact_bipotential::{BondStep, Contact, ContactKey, ContactMap};
 
 use crate::contact::ContactMemory;
 use crate::model::Model;
@@ -47,22 +47,19 @@ fn take_off_turn(frame: &StepFrame<'_>, contact: &Contact, x: &mut [f64]) {
     if frame.model.interfaces[contact.interface].adhesion.is_none() {
         return;
     }
-    let Some(before) = state_before(frame.now, (contact.interface, contact.slave_index)) else {
+    let Some(before) = state_before(frame.now, contact.key()) else {
         return;
     };
     let last = x.len() - 1;
     for (x, axis) in x[..last].iter_mut().zip(local_axes(last + 1)) {
-        let tangent = contact.frame[*axis];
-        let turn: f64 = (0..3).map(|i| tangent[i] * before.frame[2][i]).sum();
+        let turn = contact.frame.column(*axis).dot(&before.frame.column(2));
         *x += before.gap.max(0.0) * turn;
     }
 }
 
-/// What a slave node did at the end of the last step, if it was a candidate then: (interface, slave index).
-pub(crate) fn state_before(now: &State, key: (usize, usize)) -> Option<&ContactState> {
-    let found = now
-        .contacts
-        .binary_search_by_key(&key, |c| (c.interface, c.slave_index));
+/// What a slave node did at the end of the last step, if it was a candidate then.
+pub(crate) fn state_before(now: &State, key: ContactKey) -> Option<&ContactState> {
+    let found = now.contacts.binary_search_by_key(&key, ContactState::key);
     found.ok().map(|i| &now.contacts[i])
 }
 

@@ -1,9 +1,11 @@
 //! Where a step looks for contacts.
 
 use contact_bipotential::{Contact, ContactMap, Interface, Master, Obstacle, Shape};
+use nalgebra::Vector3;
 
 use crate::contact::filtered;
 use crate::error::StepFailure;
+use crate::law::state_before;
 use crate::model::point;
 use crate::report::Phase;
 use crate::scheme::ContactLevel;
@@ -28,11 +30,9 @@ impl Stepper<'_> {
         // the law to say, not for the round-off of a predicted gap or the turn of a normal.
         let touching = 1e-9 * self.reach();
         let at_rest = 1e-6 * self.reach() / frame.dt;
-        let now = &frame.now.contacts;
         let pressed = |c: &Contact| {
-            let key = (c.interface, c.slave_index);
-            let found = now.binary_search_by_key(&key, |k| (k.interface, k.slave_index));
-            found.is_ok_and(|k| now[k].force[2] > 0.0 && now[k].normal_velocity <= at_rest)
+            let before = state_before(frame.now, c.key());
+            before.is_some_and(|b| b.force[2] > 0.0 && b.normal_velocity <= at_rest)
         };
         filtered(&map, |_, c| c.gap <= touching || pressed(c))
     }
@@ -61,11 +61,7 @@ impl Stepper<'_> {
         let end = self.detect(frame, &trial.u);
         self.refuse_lost(frame.now, &trial.u, &end.contacts)?;
         for c in &mut trial.map.contacts {
-            let key = (c.interface, c.slave_index);
-            let found = end
-                .contacts
-                .binary_search_by_key(&key, |e| (e.interface, e.slave_index));
-            if let Ok(k) = found {
+            if let Some(k) = end.find(c.key()) {
                 c.gap = end.contacts[k].gap;
             }
         }
@@ -133,23 +129,20 @@ fn refuse_passing(
     let motion = obstacle.motion();
     for &node in &interface.slave {
         let from = motion.pull_back(point(start, dim, node).into(), frame.now.time);
-        let from: [f64; 3] = motion.position(from, frame.end()).into();
-        let to = point(end, dim, node);
+        let from = motion.position(from, frame.end());
+        let to = Vector3::from(point(end, dim, node));
         let (a, b) = (placed.closest(from, 0.0), placed.closest(to, 0.0));
-        let turn: f64 = (0..3).map(|c| a.normal[c] * b.normal[c]).sum();
+        let turn = a.normal.dot(&b.normal);
         let inside = |k: i32| {
             let s = f64::from(k) / 8.0;
-            let at = std::array::from_fn(|c| (1.0 - s) * from[c] + s * to[c]);
+            let at = (1.0 - s) * from + s * to;
             placed.closest(at, 0.0).gap < a.gap.min(b.gap).min(0.0)
         };
         if turn < 0.0 && (1..8).any(inside) {
             return Err(StepFailure::Passed {
                 node,
                 interface: interface.name.clone(),
-                travel: (0..3)
-                    .map(|c| (to[c] - from[c]).powi(2))
-                    .sum::<f64>()
-                    .sqrt(),
+                travel: (to - from).norm(),
             });
         }
     }

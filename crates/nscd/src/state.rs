@@ -1,5 +1,8 @@
 //! What a time step starts from and ends with.
 
+use contact_bipotential::ContactKey;
+use nalgebra::{Matrix3, Vector3};
+
 /// State at the end of an accepted step. Flat vectors are `dim * node + component`.
 #[derive(Debug, Clone)]
 pub struct State {
@@ -49,13 +52,25 @@ pub struct ContactState {
     /// Normal velocity of slave against master at the end of the step [m/s]; positive when they part.
     pub normal_velocity: f64,
     /// Force on the slave in the local frame (t1, t2, n) \[N\].
-    pub force: [f64; 3],
-    /// Unit vectors t1, t2, n of the local frame.
-    pub frame: [[f64; 3]; 3],
+    pub force: Vector3<f64>,
+    /// The local frame: columns t1, t2, n.
+    pub frame: Matrix3<f64>,
     /// What the contact does, apart from its bond.
     pub status: ContactStatus,
     /// Its bond; `None` on an interface without adhesion.
     pub bond: Option<BondState>,
+}
+
+impl ContactState {
+    /// What the contact is called from one step to the next.
+    pub fn key(&self) -> ContactKey {
+        ContactKey::new(self.interface, self.slave_index)
+    }
+
+    /// The force on the slave in global axes \[N\].
+    pub fn global_force(&self) -> Vector3<f64> {
+        self.frame * self.force
+    }
 }
 
 /// The bond of a contact at the end of a step.
@@ -66,7 +81,7 @@ pub struct BondState {
     /// Tangential separation since bonding along (t1, t2) \[m\].
     pub separation: [f64; 2],
     /// The part of [`ContactState::force`] that the bond makes \[N\].
-    pub force: [f64; 3],
+    pub force: Vector3<f64>,
 }
 
 /// What a slave node remembers of its bond from step to step.

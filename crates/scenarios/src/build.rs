@@ -216,14 +216,14 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
     let slave = surface(&given.slave)?;
     let area = slave.tributary_areas(mesh);
     let mut reach = facet_size(&slave, mesh);
-    let master = match &given.master {
-        spec::Master::Facets(set) => {
+    let master = match side(&given.master) {
+        Side::Deformable(set) => {
             let master = surface(set)?;
             reach = reach.max(facet_size(&master, mesh));
             Master::Surface(master)
         }
-        rigid => {
-            let obstacle = Obstacle::new(shape(rigid), motion(&given.motion).map_err(text)?);
+        Side::Rigid(shape) => {
+            let obstacle = Obstacle::new(shape, motion(&given.motion).map_err(text)?);
             Master::Obstacle(obstacle.map_err(|e| e.to_string())?)
         }
     };
@@ -241,12 +241,12 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
         reach = reach.max(BOND_REACH * (bonds.energy / bonds.normal_stiffness).sqrt());
     }
     let reach = given.search_distance.unwrap_or(reach);
-    let mut interface = Interface::new(name, slave.nodes.clone(), area, master, reach);
-    interface.adhesion = adhesion;
-    interface.rim_tolerance = RIM_TOLERANCE;
-    interface.mu = given.mu;
-    interface.restitution = given.restitution;
-    Ok(interface)
+    let interface = Interface::new(name, slave.nodes.clone(), area, master, reach);
+    Ok(interface
+        .with_friction(given.mu)
+        .with_restitution(given.restitution)
+        .with_rim_tolerance(RIM_LEDGE)
+        .with_adhesion(adhesion))
 }
 
 /// Search distances beyond this multiple of the size of facets, or below its inverse, are slips.
@@ -270,17 +270,32 @@ fn adhesion(given: &spec::Adhesion) -> Adhesion {
     }
 }
 
-/// The rigid shape of a master; a deformable one has none and never comes here.
-fn shape(master: &spec::Master) -> Shape {
-    match *master {
-        spec::Master::Sphere { center, radius } => Shape::Sphere { center, radius },
+/// What the master of an interface is.
+enum Side<'a> {
+    /// A facet set of a deformable body.
+    Deformable(&'a str),
+    /// A solid that does not deform.
+    Rigid(Shape),
+}
+
+fn side(master: &spec::Master) -> Side<'_> {
+    Side::Rigid(match *master {
+        spec::Master::Facets(ref set) => return Side::Deformable(set),
+        spec::Master::Plane { point, normal } => Shape::Plane {
+            point: point.into(),
+            normal: normal.into(),
+        },
+        spec::Master::Sphere { center, radius } => Shape::Sphere {
+            center: center.into(),
+            radius,
+        },
         spec::Master::Cylinder {
             point,
             axis,
             radius,
         } => Shape::Cylinder {
-            point,
-            axis,
+            point: point.into(),
+            axis: axis.into(),
             radius,
         },
         spec::Master::Cone {
@@ -288,8 +303,8 @@ fn shape(master: &spec::Master) -> Shape {
             axis,
             semi_apex_angle,
         } => Shape::Cone {
-            apex,
-            axis,
+            apex: apex.into(),
+            axis: axis.into(),
             semi_apex_angle: semi_apex_angle.to_radians(),
         },
         spec::Master::Punch {
@@ -297,21 +312,17 @@ fn shape(master: &spec::Master) -> Shape {
             axis,
             radius,
         } => Shape::Punch {
-            center,
-            axis,
+            center: center.into(),
+            axis: axis.into(),
             radius,
         },
-        spec::Master::Plane { point, normal } => Shape::Plane { point, normal },
-        spec::Master::Facets(_) => Shape::Plane {
-            point: [0.0; 3],
-            normal: [0.0, 0.0, 1.0],
-        },
-    }
+    })
 }
 
 /// How far a node may overhang the rim of a deformable master, as a part of a facet \[-\]. Bodies with flush sides
-/// bulge a little differently while Newton iterates; a contact that came and went with that would never settle.
-const RIM_TOLERANCE: f64 = 1e-2;
+/// bulge a little differently while Newton iterates; a contact that came and went with that would never settle. Wider
+/// than [`contact_bipotential::RIM_ROUND_OFF`], the default of interfaces, which is for sides that stay flush.
+const RIM_LEDGE: f64 = 1e-2;
 
 /// Longest distance between two nodes of a facet \[m\]: how far contacts are looked for.
 fn facet_size(surface: &Surface, mesh: &Mesh) -> f64 {

@@ -1,5 +1,6 @@
 //! What contacts and bonds do at the nodes.
 
+use nalgebra::Vector3;
 use nscd::{ContactState, ContactStatus, Model, State};
 
 use crate::output::Bonds;
@@ -12,7 +13,7 @@ pub struct NodeContact {
     /// Largest intensity of adhesion \[-\].
     pub beta: f64,
     /// Force of the bonds on the node in global axes \[N\].
-    pub bond_force: [f64; 3],
+    pub bond_force: Vector3<f64>,
     /// Pull of the bonds along the normal \[N\].
     pub bond_normal: f64,
     /// Norm of the tangential force of the bonds \[N\].
@@ -27,7 +28,7 @@ impl NodeContact {
     const NONE: NodeContact = NodeContact {
         gap: f64::NAN,
         beta: 0.0,
-        bond_force: [0.0; 3],
+        bond_force: Vector3::new(0.0, 0.0, 0.0),
         bond_normal: 0.0,
         bond_tangential: 0.0,
         normal: 0.0,
@@ -65,17 +66,17 @@ impl NodeContact {
 
     fn add(&mut self, contact: &ContactState) {
         self.gap = self.gap.min(contact.gap);
-        let bond = contact.bond.map_or([0.0; 3], |bond| bond.force);
+        let bond = contact.bond.map_or(Vector3::zeros(), |bond| bond.force);
         // The difference of an open contact is round-off.
         if contact.status != ContactStatus::Open {
-            let dry: [f64; 3] = std::array::from_fn(|i| contact.force[i] - bond[i]);
+            let dry = contact.force - bond;
             self.normal += dry[2];
             self.tangential += dry[0].hypot(dry[1]);
         }
         self.bond_normal -= bond[2];
         self.bond_tangential += bond[0].hypot(bond[1]);
-        for (component, axis) in bond.iter().zip(&contact.frame) {
-            (0..3).for_each(|i| self.bond_force[i] += component * axis[i]);
+        for (component, axis) in bond.iter().zip(contact.frame.column_iter()) {
+            self.bond_force += *component * axis;
         }
     }
 }

@@ -47,7 +47,10 @@ impl Fields {
             contact_status,
             gap: nodes.iter().map(|n| n.gap).collect(),
             beta: nodes.iter().map(|n| n.beta).collect(),
-            adhesion_force: nodes.iter().flat_map(|n| n.bond_force).collect(),
+            adhesion_force: nodes
+                .iter()
+                .flat_map(|n| <[f64; 3]>::from(n.bond_force))
+                .collect(),
             normal_force: nodes.iter().map(|n| n.normal).collect(),
             tangential_force: nodes.iter().map(|n| n.tangential).collect(),
             von_mises: stress.iter().map(|s| s.von_mises).collect(),

@@ -78,7 +78,7 @@ fn probes(scene: &Scene, built: &Built, state: &State) -> Vec<f64> {
             Quantity::VonMises => vec![stress(node)],
             Quantity::Gap => vec![contact.gap],
             Quantity::Beta => vec![contact.beta],
-            Quantity::AdhesionForce => contact.bond_force.to_vec(),
+            Quantity::AdhesionForce => contact.bond_force.as_slice().to_vec(),
             Quantity::AdhesionNormal => vec![contact.bond_normal],
             Quantity::AdhesionTangential => vec![contact.bond_tangential],
             Quantity::NormalForce => vec![contact.normal],

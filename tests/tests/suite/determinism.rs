@@ -13,7 +13,7 @@ fn bits(run: &Run) -> Vec<u64> {
     let contacts = state
         .contacts
         .iter()
-        .flat_map(|c| c.force.into_iter().chain([c.gap]));
+        .flat_map(|c| <[f64; 3]>::from(c.force).into_iter().chain([c.gap]));
     let fields = [
         &state.u,
         &state.v,

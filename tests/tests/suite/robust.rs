@@ -129,7 +129,7 @@ fn bonds_on_a_round_obstacle_stay_in_the_plane() {
             "{contact:?}"
         );
         stretched +=
-            usize::from(bond.separation[0].abs() > 1e-6 && contact.frame[2][0].abs() > 0.1);
+            usize::from(bond.separation[0].abs() > 1e-6 && contact.frame.column(2)[0].abs() > 0.1);
     }
     assert!(stretched > 10, "no bond is stretched on a slope");
 }

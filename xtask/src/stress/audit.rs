@@ -2,6 +2,7 @@
 
 use contact_bipotential::Master;
 use fe_core::ElementWorkspace;
+use nalgebra::Vector3;
 use nscd::{
     ContactLevel, ContactState, Inertia, Model, Observer, State, StepReport, Stepper, Totals,
 };
@@ -262,14 +263,13 @@ impl<'a> Auditor<'a> {
         let force = state
             .contacts
             .iter()
-            .flat_map(|c| c.force)
-            .fold(0.0, |m: f64, r| m.max(r.abs()));
+            .map(|c| c.force.amax())
+            .fold(0.0, f64::max);
         // Below the round-off of the forces that move the nodes no contact force is known.
         let known = force.max(self.round_off(self.extent, state, report.dt) / LAW);
         for c in &state.contacts {
             let interface = &self.model.interfaces[c.interface];
-            let pull = c.bond.map_or([0.0; 3], |b| b.force);
-            let dry: [f64; 3] = std::array::from_fn(|i| c.force[i] - pull[i]);
+            let dry = c.force - c.bond.map_or(Vector3::zeros(), |b| b.force);
             let mut mu = interface.mu;
             if let (Some(bond), Some(law)) = (c.bond, &interface.adhesion) {
                 if !(0.0..=1.0).contains(&bond.intensity) {
@@ -282,8 +282,11 @@ impl<'a> Auditor<'a> {
             error = error.max(self.complementarity(c, dry, mu) / known);
             if error > LAW {
                 return Err(format!(
-                    "node {} breaks the contact law by {error:e}: force {dry:?} N, gap {:e} m, slip {:?} m",
-                    c.node, c.gap, c.slip
+                    "node {} breaks the contact law by {error:e}: force {:?} N, gap {:e} m, slip {:?} m",
+                    c.node,
+                    dry.as_slice(),
+                    c.gap,
+                    c.slip
                 ));
             }
             self.worst.law = self.worst.law.max(error);
@@ -292,7 +295,7 @@ impl<'a> Auditor<'a> {
     }
 
     /// Bi-potential gap of a contact over the extent of the bodies \[N\].
-    fn complementarity(&self, c: &ContactState, dry: [f64; 3], mu: f64) -> f64 {
+    fn complementarity(&self, c: &ContactState, dry: Vector3<f64>, mu: f64) -> f64 {
         if self.model.scheme.contact == ContactLevel::Velocity {
             return 0.0;
         }
@@ -372,7 +375,10 @@ fn finite(state: &State, report: &StepReport) -> Result<(), String> {
         }
     }
     let contacts = state.contacts.iter();
-    let local = contacts.flat_map(|c| c.force.into_iter().chain(c.slip).chain([c.gap]));
+    let local = contacts.flat_map(|c| {
+        let force = <[f64; 3]>::from(c.force).into_iter();
+        force.chain(c.slip).chain([c.gap])
+    });
     let numbers = [
         state.kinetic_energy,
         state.strain_energy,

@@ -2,28 +2,10 @@
 
 use contact_bipotential::{Master, Shape};
 use fe_core::{Facet, Motion};
+use nalgebra::Vector3;
 use nscd::Model;
 
-type Point = [f64; 3];
-
-fn sub(a: Point, b: Point) -> Point {
-    std::array::from_fn(|i| a[i] - b[i])
-}
-
-fn dot(a: Point, b: Point) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn cross(a: Point, b: Point) -> Point {
-    std::array::from_fn(|i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        a[j] * b[k] - a[k] * b[j]
-    })
-}
-
-fn norm(a: Point) -> f64 {
-    dot(a, a).sqrt()
-}
+type Point = Vector3<f64>;
 
 /// Flat displacements as current positions.
 pub(super) fn positions(model: &Model, u: &[f64]) -> Vec<Point> {
@@ -31,7 +13,7 @@ pub(super) fn positions(model: &Model, u: &[f64]) -> Vec<Point> {
     let points = model.solid.mesh().points.iter();
     let moved = points.zip(u.chunks_exact(dim));
     moved
-        .map(|(x, u)| std::array::from_fn(|c| x[c] + u.get(c).copied().unwrap_or(0.0)))
+        .map(|(x, u)| x + Vector3::from_fn(|c, _| u.get(c).copied().unwrap_or(0.0)))
         .collect()
 }
 
@@ -63,7 +45,7 @@ pub(super) fn warp(model: &Model, x: &[Point]) -> f64 {
     let twist = facets.map(|facet| match facet.nodes() {
         &[a, b, c, d] => {
             let [a, b, c, d] = [a, b, c, d].map(|n| x[n as usize]);
-            norm(sub(sub(a, b), sub(d, c))) / 4.0
+            (a - b - (d - c)).norm() / 4.0
         }
         _ => 0.0,
     });
@@ -83,10 +65,10 @@ pub(super) fn deepest_on_the_way(
         };
         for &node in &interface.slave {
             let ends = [(before, t0), (after, t1)]
-                .map(|(x, t)| obstacle.motion().pull_back(x[node as usize].into(), t));
+                .map(|(x, t)| obstacle.motion().pull_back(x[node as usize], t));
             for k in 1..8 {
                 let s = f64::from(k) / 8.0;
-                let at = std::array::from_fn(|i| (1.0 - s) * ends[0][i] + s * ends[1][i]);
+                let at = (1.0 - s) * ends[0] + s * ends[1];
                 worst = worst.max(-distance(obstacle.shape(), at));
             }
         }
@@ -95,31 +77,31 @@ pub(super) fn deepest_on_the_way(
 }
 
 fn depth_in_shape(shape: &Shape, motion: &Motion, x: Point, time: f64) -> f64 {
-    -distance(shape, motion.pull_back(x.into(), time).into())
+    -distance(shape, motion.pull_back(x, time))
 }
 
 /// Signed distance of a point to a shape at its reference position \[m\].
 fn distance(shape: &Shape, x: Point) -> f64 {
     match *shape {
-        Shape::Plane { point, normal } => dot(sub(x, point), normal) / norm(normal),
-        Shape::Sphere { center, radius } => norm(sub(x, center)) - radius,
+        Shape::Plane { point, normal } => (x - point).dot(&normal) / normal.norm(),
+        Shape::Sphere { center, radius } => (x - center).norm() - radius,
         Shape::Cylinder {
             point,
             axis,
             radius,
-        } => norm(cross(sub(x, point), axis)) / norm(axis) - radius,
+        } => (x - point).cross(&axis).norm() / axis.norm() - radius,
         Shape::Cone {
             apex,
             axis,
             semi_apex_angle,
         } => {
-            let arm = sub(x, apex);
-            let along = dot(arm, axis) / norm(axis);
-            let aside = norm(cross(arm, axis)) / norm(axis);
+            let arm = x - apex;
+            let along = arm.dot(&axis) / axis.norm();
+            let aside = arm.cross(&axis).norm() / axis.norm();
             let (sin, cos) = semi_apex_angle.sin_cos();
             // Only a ray of the surface bounds the solid; before the tip the tip is nearest.
             if aside * sin + along * cos <= 0.0 {
-                norm(arm)
+                arm.norm()
             } else {
                 aside * cos - along * sin
             }
@@ -129,9 +111,9 @@ fn distance(shape: &Shape, x: Point) -> f64 {
             axis,
             radius,
         } => {
-            let arm = sub(x, center);
-            let before = -dot(arm, axis) / norm(axis);
-            let beside = norm(cross(arm, axis)) / norm(axis) - radius;
+            let arm = x - center;
+            let before = -arm.dot(&axis) / axis.norm();
+            let beside = arm.cross(&axis).norm() / axis.norm() - radius;
             if before > 0.0 && beside > 0.0 {
                 before.hypot(beside)
             } else {
@@ -236,13 +218,12 @@ fn turn<const N: usize>(sides: [f64; N]) -> i32 {
 }
 
 fn in_triangle([a, b, c]: [Point; 3], x: Point) -> i32 {
-    let side = |p: Point, q: Point| cross(sub(q, p), sub(x, p))[2];
+    let side = |p: Point, q: Point| (q - p).cross(&(x - p))[2];
     turn([side(a, b), side(b, c), side(c, a)])
 }
 
 fn in_tetrahedron([a, b, c, d]: [Point; 4], x: Point) -> i32 {
-    let volume =
-        |p: Point, q: Point, r: Point, s: Point| dot(sub(s, p), cross(sub(q, p), sub(r, p)));
+    let volume = |p: Point, q: Point, r: Point, s: Point| (s - p).dot(&(q - p).cross(&(r - p)));
     turn([
         volume(x, b, c, d),
         volume(a, x, c, d),
@@ -262,16 +243,16 @@ fn to_face(nodes: &[u32], x: &[Point], at: Point) -> f64 {
 }
 
 fn to_segment([a, b]: [Point; 2], x: Point) -> f64 {
-    let along = sub(b, a);
-    let t = (dot(sub(x, a), along) / dot(along, along)).clamp(0.0, 1.0);
-    norm(std::array::from_fn(|i| x[i] - a[i] - t * along[i]))
+    let along = b - a;
+    let t = ((x - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+    (x - a - t * along).norm()
 }
 
 fn to_triangle([a, b, c]: [Point; 3], x: Point) -> f64 {
-    let normal = cross(sub(b, a), sub(c, a));
-    let inside = |p: Point, q: Point| dot(cross(sub(q, p), sub(x, p)), normal) >= 0.0;
+    let normal = (b - a).cross(&(c - a));
+    let inside = |p: Point, q: Point| (q - p).cross(&(x - p)).dot(&normal) >= 0.0;
     if inside(a, b) && inside(b, c) && inside(c, a) {
-        return (dot(sub(x, a), normal) / norm(normal)).abs();
+        return ((x - a).dot(&normal) / normal.norm()).abs();
     }
     let edges = [[a, b], [b, c], [c, a]];
     edges
@@ -286,37 +267,37 @@ mod tests {
 
     #[test]
     fn distances_to_shapes_and_facets() {
-        let up = [0.0, 1.0, 0.0];
+        let up = Vector3::y();
         let plane = Shape::Plane {
-            point: [0.0; 3],
+            point: Vector3::zeros(),
             normal: up,
         };
-        assert_eq!(distance(&plane, [3.0, -0.5, 0.0]), -0.5);
+        assert_eq!(distance(&plane, Vector3::new(3.0, -0.5, 0.0)), -0.5);
         let cone = Shape::Cone {
-            apex: [0.0; 3],
-            axis: [0.0, -1.0, 0.0],
+            apex: Vector3::zeros(),
+            axis: Vector3::new(0.0, -1.0, 0.0),
             semi_apex_angle: std::f64::consts::FRAC_PI_4,
         };
-        assert!((distance(&cone, [0.0, -1.0, 0.0]) + 0.5_f64.sqrt()).abs() < 1e-15);
-        assert_eq!(distance(&cone, [0.0, 2.0, 0.0]), 2.0);
-        let t = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        assert_eq!(to_triangle(t, [0.2, 0.2, 0.7]), 0.7);
-        assert_eq!(to_triangle(t, [-3.0, 0.0, 4.0]), 5.0);
-        assert_eq!(in_triangle(t, [0.2, 0.2, 0.0]), 1);
-        assert_eq!(in_triangle(t, [0.8, 0.8, 0.0]), 0);
-        let t = [t[0], t[1], t[2], [0.0, 0.0, 1.0]];
-        assert_eq!(in_tetrahedron(t, [0.1, 0.1, 0.1]).abs(), 1);
-        assert_eq!(in_tetrahedron(t, [0.5, 0.5, 0.5]), 0);
+        assert!((distance(&cone, Vector3::new(0.0, -1.0, 0.0)) + 0.5_f64.sqrt()).abs() < 1e-15);
+        assert_eq!(distance(&cone, Vector3::new(0.0, 2.0, 0.0)), 2.0);
+        let t = [Vector3::zeros(), Vector3::x(), Vector3::y()];
+        assert_eq!(to_triangle(t, Vector3::new(0.2, 0.2, 0.7)), 0.7);
+        assert_eq!(to_triangle(t, Vector3::new(-3.0, 0.0, 4.0)), 5.0);
+        assert_eq!(in_triangle(t, Vector3::new(0.2, 0.2, 0.0)), 1);
+        assert_eq!(in_triangle(t, Vector3::new(0.8, 0.8, 0.0)), 0);
+        let t = [t[0], t[1], t[2], Vector3::z()];
+        assert_eq!(in_tetrahedron(t, Vector3::new(0.1, 0.1, 0.1)).abs(), 1);
+        assert_eq!(in_tetrahedron(t, Vector3::new(0.5, 0.5, 0.5)), 0);
         let dart = [
-            [0.0, 0.0, 0.0],
-            [2.0, 0.0, 0.0],
-            [0.5, 0.5, 0.0],
-            [0.0, 2.0, 0.0],
+            Vector3::new(0.0, 0.0, 0.0),
+            Vector3::new(2.0, 0.0, 0.0),
+            Vector3::new(0.5, 0.5, 0.0),
+            Vector3::new(0.0, 2.0, 0.0),
         ];
         for k in 0..4 {
             let cell = [0, 1, 2, 3].map(|i| (i + k) % 4);
-            assert!(is_in_cell(2, &cell, &dart, [0.2, 0.1, 0.0]));
-            assert!(!is_in_cell(2, &cell, &dart, [0.75, 0.7, 0.0]));
+            assert!(is_in_cell(2, &cell, &dart, Vector3::new(0.2, 0.1, 0.0)));
+            assert!(!is_in_cell(2, &cell, &dart, Vector3::new(0.75, 0.7, 0.0)));
         }
     }
 }

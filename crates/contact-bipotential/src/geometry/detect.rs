@@ -2,20 +2,23 @@
 
 mod surface_search;
 
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::cone::Cone;
-
+use crate::geometry::contact::{Contact, ContactKey, Stencil};
 use crate::geometry::error::GeometryError;
 use crate::geometry::interface::{Interface, Master};
-use crate::geometry::kinematics::{Contact, ContactMap, FrameRule, Stencil};
+use crate::geometry::kinematics::{ContactMap, FrameRule};
 use crate::geometry::obstacle::{Obstacle, PlacedObstacle, Shape};
-use crate::geometry::vec3::{Vec3, axpy, node_vector, unit};
+use crate::geometry::vector::{at_node, unit};
 
-use surface_search::SurfaceSearch;
+use surface_search::{SurfaceContact, SurfaceSearch};
 
 /// A node this close to a cone's apex or an axis of symmetry, as a part of the search distance, lies on it.
 const CORE: f64 = 1e-6;
+/// Least mean of the vertex normals of a surface with a typical normal \[-\]: those of a closed one cancel to round-off.
+const CANCELLED: f64 = 1e-6;
 /// Slave nodes a thread takes at once: a projection is far cheaper than handing it over.
 const GRAIN: usize = 64;
 
@@ -31,6 +34,23 @@ pub struct DetectionCounters {
 }
 
 /// Finds contacts. Holds the interfaces and caches; the caches only speed up, they decide nothing.
+///
+/// ```
+/// use contact_bipotential::nalgebra::Vector3;
+/// use contact_bipotential::{Cone, Detector, Interface, Master, Obstacle, Shape};
+/// use fe_core::Motion;
+///
+/// let plane = Shape::Plane { point: Vector3::zeros(), normal: Vector3::z() };
+/// let floor = Master::Obstacle(Obstacle::new(plane, Motion::still())?);
+/// // The second of two nodes, with an area of 1 m^2, searched up to 0.5 m.
+/// let interface = Interface::new("floor", vec![1], vec![1.0], floor, 0.5);
+/// let positions = [0.0, 0.0, 2.0, 1.0, 0.0, 0.25];
+/// let mut detector = Detector::new(vec![interface], &positions, 3, Cone::Spatial)?;
+/// let map = detector.detect(&positions, 0.0, 1.0);
+/// assert_eq!(map.gaps(), [0.25]);
+/// assert_eq!(map.contacts[0].normal(), Vector3::z());
+/// # Ok::<(), contact_bipotential::GeometryError>(())
+/// ```
 #[derive(Debug)]
 pub struct Detector {
     interfaces: Vec<Interface>,
@@ -62,10 +82,7 @@ impl Detector {
             });
         }
         if cone != Cone::Frictionless && cone.dim() != dim {
-            return Err(GeometryError::Cone {
-                cone: cone.dim(),
-                dim,
-            });
+            return Err(GeometryError::Cone { cone, dim });
         }
         for interface in &interfaces {
             interface.validate(reference.len() / dim, dim)?;
@@ -105,7 +122,7 @@ impl Detector {
         if self.dim == 2 {
             for (interface, search) in self.interfaces.iter().zip(&mut self.searches) {
                 let core = CORE * interface.search_distance;
-                let is_on_axis = |node| node_vector(reference, 2, node)[0].abs() <= core;
+                let is_on_axis = |node| at_node(reference, 2, node)[0].abs() <= core;
                 if let Some(search) = search {
                     search.mirror_at_axis(is_on_axis);
                 }
@@ -114,8 +131,8 @@ impl Detector {
         self
     }
 
-    /// Searches an interface farther than its search distance, as far as `reach` \[m\]: bonds may hold beyond it. A smaller
-    /// `reach` means the search distance again.
+    /// Searches an interface farther than its search distance, as far as `reach` \[m\]: bonds may hold beyond it. A
+    /// smaller `reach` means the search distance again.
     pub fn extend(&mut self, interface: usize, reach: f64) {
         let reach = reach.max(self.interfaces[interface].search_distance);
         self.reaches[interface] = reach;
@@ -170,13 +187,13 @@ fn frame_rule(interface: &Interface, reference: &[f64], dim: usize) -> FrameRule
     if dim == 2 {
         return FrameRule::planar();
     }
-    let mut sum = [0.0; 3];
+    let mut sum = Vector3::zeros();
     match &interface.master {
         Master::Obstacle(obstacle) => {
             let placed = obstacle.over_step(0.0, 0.0);
             for (node, area) in interface.slave.iter().zip(&interface.area) {
-                let at = placed.closest(node_vector(reference, dim, *node), 0.0);
-                sum = axpy(sum, *area, at.normal);
+                let at = placed.closest(at_node(reference, dim, *node), 0.0);
+                sum += *area * at.normal;
             }
             if let Shape::Plane { normal, .. } = placed.shape() {
                 sum = *normal;
@@ -184,7 +201,7 @@ fn frame_rule(interface: &Interface, reference: &[f64], dim: usize) -> FrameRule
         }
         Master::Surface(surface) => {
             for n in surface.vertex_normals(reference) {
-                sum = axpy(sum, 1.0, n.into());
+                sum += n;
             }
             // The normals of a closed surface cancel but for round-off, which is no direction.
             sum = significant(sum, surface.nodes.len() as f64);
@@ -193,9 +210,9 @@ fn frame_rule(interface: &Interface, reference: &[f64], dim: usize) -> FrameRule
     FrameRule::spatial(sum)
 }
 
-fn significant(sum: Vec3, terms: f64) -> Vec3 {
-    if sum.iter().all(|c| c.abs() < 1e-6 * terms) {
-        [0.0; 3]
+fn significant(sum: Vector3<f64>, terms: f64) -> Vector3<f64> {
+    if sum.iter().all(|c| c.abs() < CANCELLED * terms) {
+        Vector3::zeros()
     } else {
         sum
     }
@@ -212,8 +229,8 @@ struct Seeker<'a> {
 }
 
 impl Seeker<'_> {
-    fn slave_position(&self, slave_index: usize) -> Vec3 {
-        node_vector(self.positions, self.dim, self.interface.slave[slave_index])
+    fn slave_position(&self, slave_index: usize) -> Vector3<f64> {
+        at_node(self.positions, self.dim, self.interface.slave[slave_index])
     }
 
     fn against_obstacle(&self, obstacle: &Obstacle, t0: f64, t1: f64, contacts: &mut Vec<Contact>) {
@@ -222,20 +239,19 @@ impl Seeker<'_> {
         contacts.extend(found);
     }
 
+    fn key(&self, slave_index: usize) -> ContactKey {
+        ContactKey::new(self.index, slave_index)
+    }
+
     /// However deep: a rigid solid has no other side to come from.
     fn touch_obstacle(&self, placed: &PlacedObstacle, slave_index: usize) -> Option<Contact> {
         let slave = self.interface.slave[slave_index];
         let reach = self.reach;
         let at = placed.closest(self.slave_position(slave_index), CORE * reach);
-        (at.gap <= reach).then(|| Contact {
-            interface: self.index,
-            slave,
-            slave_index,
-            stencil: Stencil::rigid(slave),
-            frame: self.rule.at(at.normal),
-            gap: at.gap,
-            facet: None,
-            obstacle_motion: placed.displacement(at.point),
+        (at.gap <= reach).then(|| {
+            let frame = self.rule.at(at.normal);
+            Contact::new(self.key(slave_index), Stencil::rigid(slave), frame, at.gap)
+                .on_moving_obstacle(placed.displacement(at.point))
         })
     }
 
@@ -255,8 +271,7 @@ impl Seeker<'_> {
             return;
         };
         counters.bvh_refits += u64::from(search.refit());
-        let normals = surface.vertex_normals(self.positions);
-        search.set_normals(normals.into_iter().map(Vec3::from).collect());
+        search.set_normals(surface.vertex_normals(self.positions));
         let search = &*search;
         let found: Vec<(Option<Contact>, u64)> = slaves
             .into_par_iter()
@@ -276,18 +291,11 @@ impl Seeker<'_> {
         contacts.extend(found.into_iter().filter_map(|(contact, _)| contact));
     }
 
-    fn surface_contact(&self, at: &surface_search::SurfaceContact, slave_index: usize) -> Contact {
+    fn surface_contact(&self, at: &SurfaceContact, slave_index: usize) -> Contact {
         let slave = self.interface.slave[slave_index];
-        Contact {
-            interface: self.index,
-            slave,
-            slave_index,
-            stencil: Stencil::deformable(slave, &at.nodes[..at.count], &at.weights),
-            frame: self.rule.at(unit(at.normal).unwrap_or(at.normal)),
-            gap: at.gap,
-            facet: Some(at.facet),
-            obstacle_motion: [0.0; 3],
-        }
+        let stencil = Stencil::deformable(slave, &at.nodes[..at.count], &at.weights);
+        let frame = self.rule.at(unit(at.normal).unwrap_or(at.normal));
+        Contact::new(self.key(slave_index), stencil, frame, at.gap).on_facet(at.facet)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::cone::Cone;
 use crate::error::ParameterError;
 
 /// Contact geometry that cannot be used.
@@ -43,11 +44,12 @@ pub enum GeometryError {
     },
     /// A cone that does not fit the dimension of the mesh.
     #[error(
-        "contacts with {cone} components in a mesh with {dim} unknowns a node; give 1 (frictionless) or {dim}"
+        "contacts with {} components in a mesh with {dim} unknowns a node; give 1 (frictionless) or {dim}",
+        cone.dim()
     )]
     Cone {
-        /// Entries a contact.
-        cone: usize,
+        /// What was asked for.
+        cone: Cone,
         /// Unknowns a node.
         dim: usize,
     },

@@ -5,7 +5,9 @@
 //! A quadrilateral is `x = a + xi b + eta c + xi eta d` with `(xi, eta)` in the unit square, vertices at
 //! (0,0), (1,0), (1,1), (0,1); a triangle is the case `d = 0` with `xi + eta <= 1`.
 
-use crate::geometry::vec3::{Vec3, axpy, cross, dot, scale, sub, unit};
+use nalgebra::Vector3;
+
+use crate::geometry::vector::unit;
 
 /// Where on a facet a point lies. Edges and vertices are exact: the point was clamped to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,13 +23,13 @@ pub enum Place {
 /// A point of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FacetPoint {
-    /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle [-]; `(xi, 0)` on a line.
+    /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle \[-\]; `(xi, 0)` on a line.
     pub coordinates: [f64; 2],
-    /// Shape functions at the point [-]: they sum to 1; those of missing vertices are 0.
+    /// Shape functions at the point \[-\]: they sum to 1; those of missing vertices are 0.
     pub weights: [f64; 4],
     /// Position \[m\].
-    pub point: [f64; 3],
-    /// Squared distance to the point that was projected [m^2].
+    pub point: Vector3<f64>,
+    /// Squared distance to the point that was projected \[m^2\].
     pub distance_squared: f64,
     /// Interior, edge or vertex.
     pub place: Place,
@@ -40,19 +42,19 @@ pub struct FacetPoint {
 /// distance has several minima inside.
 ///
 /// With fewer than 2 vertices the first one is returned.
-pub fn closest_point(vertices: &[[f64; 3]], p: [f64; 3]) -> FacetPoint {
+pub fn closest_point(vertices: &[Vector3<f64>], p: Vector3<f64>) -> FacetPoint {
     match vertices {
         [a, b] => line(&[*a, *b], p),
         [a, b, c] => triangle(&[*a, *b, *c], p),
         [a, b, c, d, ..] => quadrilateral(&[*a, *b, *c, *d], p),
         _ => {
             let point = vertices.first().copied().unwrap_or(p);
-            let r = sub(point, p);
+            let r = point - p;
             FacetPoint {
                 coordinates: [0.0; 2],
                 weights: [1.0, 0.0, 0.0, 0.0],
                 point,
-                distance_squared: dot(r, r),
+                distance_squared: r.norm_squared(),
                 place: Place::Vertex(0),
             }
         }
@@ -60,37 +62,37 @@ pub fn closest_point(vertices: &[[f64; 3]], p: [f64; 3]) -> FacetPoint {
 }
 
 /// Outward unit normal of the facet itself at local coordinates; `None` where the facet is degenerate.
-pub fn facet_normal(vertices: &[[f64; 3]], coordinates: [f64; 2]) -> Option<[f64; 3]> {
+pub fn facet_normal(vertices: &[Vector3<f64>], coordinates: [f64; 2]) -> Option<Vector3<f64>> {
     match vertices {
-        [a, b] => unit([b[1] - a[1], a[0] - b[0], 0.0]),
-        [a, b, c] => unit(cross(sub(*b, *a), sub(*c, *a))),
+        [a, b] => unit(Vector3::new(b[1] - a[1], a[0] - b[0], 0.0)),
+        [a, b, c] => unit((b - a).cross(&(c - a))),
         [a, b, c, d, ..] => {
             let q = Bilinear::new(&[*a, *b, *c, *d], *a);
-            unit(cross(q.d_xi(coordinates), q.d_eta(coordinates)))
+            unit(q.d_xi(coordinates).cross(&q.d_eta(coordinates)))
         }
         _ => None,
     }
 }
 
 /// Parameter in [0, 1] of the point of segment `a b` closest to the origin.
-fn segment(a: Vec3, b: Vec3) -> f64 {
-    let e = sub(b, a);
-    let length_squared = dot(e, e);
+fn segment(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
+    let e = b - a;
+    let length_squared = e.norm_squared();
     if length_squared > 0.0 {
-        (-dot(a, e) / length_squared).clamp(0.0, 1.0)
+        (-a.dot(&e) / length_squared).clamp(0.0, 1.0)
     } else {
         0.0
     }
 }
 
 /// The closest point to the origin on the border of a polygon: edge, parameter along it, squared distance.
-fn closest_on_border(vertices: &[Vec3]) -> (usize, f64, f64) {
+fn closest_on_border(vertices: &[Vector3<f64>]) -> (usize, f64, f64) {
     let mut best = (0, 0.0, f64::INFINITY);
     for k in 0..vertices.len() {
         let (a, b) = (vertices[k], vertices[(k + 1) % vertices.len()]);
         let t = segment(a, b);
-        let r = axpy(a, t, sub(b, a));
-        let f = dot(r, r);
+        let r = a + t * (b - a);
+        let f = r.norm_squared();
         if f < best.2 {
             best = (k, t, f);
         }
@@ -98,9 +100,9 @@ fn closest_on_border(vertices: &[Vec3]) -> (usize, f64, f64) {
     best
 }
 
-fn line(x: &[Vec3; 2], p: Vec3) -> FacetPoint {
-    let a = sub(x[0], p);
-    let t = segment(a, sub(x[1], p));
+fn line(x: &[Vector3<f64>; 2], p: Vector3<f64>) -> FacetPoint {
+    let a = x[0] - p;
+    let t = segment(a, x[1] - p);
     let place = if t <= 0.0 {
         Place::Vertex(0)
     } else if t >= 1.0 {
@@ -108,20 +110,20 @@ fn line(x: &[Vec3; 2], p: Vec3) -> FacetPoint {
     } else {
         Place::Interior
     };
-    let relative = axpy(a, t, sub(x[1], x[0]));
+    let relative = a + t * (x[1] - x[0]);
     finish(x, [t, 0.0], [1.0 - t, t, 0.0, 0.0], place, relative)
 }
 
-fn triangle(x: &[Vec3; 3], p: Vec3) -> FacetPoint {
-    let r = [sub(x[0], p), sub(x[1], p), sub(x[2], p)];
-    let (b, c) = (sub(x[1], x[0]), sub(x[2], x[0]));
-    let (bb, bc, cc) = (dot(b, b), dot(b, c), dot(c, c));
-    let (rb, rc) = (-dot(r[0], b), -dot(r[0], c));
+fn triangle(x: &[Vector3<f64>; 3], p: Vector3<f64>) -> FacetPoint {
+    let r = [x[0] - p, x[1] - p, x[2] - p];
+    let (b, c) = (x[1] - x[0], x[2] - x[0]);
+    let (bb, bc, cc) = (b.norm_squared(), b.dot(&c), c.norm_squared());
+    let (rb, rc) = (-r[0].dot(&b), -r[0].dot(&c));
     let det = bb * cc - bc * bc;
     let (xi, eta) = ((cc * rb - bc * rc) / det, (bb * rc - bc * rb) / det);
     // A degenerate triangle gives NaN or infinity here and is left to its border.
     if xi > 0.0 && eta > 0.0 && xi + eta < 1.0 {
-        let relative = axpy(axpy(r[0], xi, b), eta, c);
+        let relative = r[0] + xi * b + eta * c;
         let weights = [1.0 - xi - eta, xi, eta, 0.0];
         return finish(x, [xi, eta], weights, Place::Interior, relative);
     }
@@ -137,69 +139,70 @@ fn triangle(x: &[Vec3; 3], p: Vec3) -> FacetPoint {
     } else {
         Place::Edge(edge as u8)
     };
-    let relative = axpy(r[edge], t, sub(x[next], x[edge]));
+    let relative = r[edge] + t * (x[next] - x[edge]);
     finish(x, [weights[1], weights[2]], weights, place, relative)
 }
 
 /// `relative` is the closest point seen from `p`, formed without the cancellation of two large positions.
 fn finish(
-    x: &[Vec3],
+    x: &[Vector3<f64>],
     coordinates: [f64; 2],
     weights: [f64; 4],
     place: Place,
-    relative: Vec3,
+    relative: Vector3<f64>,
 ) -> FacetPoint {
-    let mut point = [0.0; 3];
-    for (a, w) in x.iter().zip(weights) {
-        point = axpy(point, w, *a);
-    }
     FacetPoint {
         coordinates,
         weights,
-        point,
-        distance_squared: dot(relative, relative),
+        point: interpolate(x, &weights),
+        distance_squared: relative.norm_squared(),
         place,
     }
 }
 
 /// `r(xi, eta) = a + xi b + eta c + xi eta d`, seen from the projected point.
 struct Bilinear {
-    a: Vec3,
-    b: Vec3,
-    c: Vec3,
-    d: Vec3,
+    a: Vector3<f64>,
+    b: Vector3<f64>,
+    c: Vector3<f64>,
+    d: Vector3<f64>,
 }
 
 impl Bilinear {
-    fn new(x: &[Vec3; 4], p: Vec3) -> Self {
-        let b = sub(x[1], x[0]);
+    fn new(x: &[Vector3<f64>; 4], p: Vector3<f64>) -> Self {
+        let b = x[1] - x[0];
         Self {
-            a: sub(x[0], p),
+            a: x[0] - p,
             b,
-            c: sub(x[3], x[0]),
-            d: sub(sub(x[2], x[3]), b),
+            c: x[3] - x[0],
+            d: x[2] - x[3] - b,
         }
     }
 
-    fn at(&self, [xi, eta]: [f64; 2]) -> Vec3 {
-        let along = axpy(self.b, eta, self.d);
-        axpy(axpy(self.a, eta, self.c), xi, along)
+    fn at(&self, [xi, eta]: [f64; 2]) -> Vector3<f64> {
+        let along = self.b + eta * self.d;
+        self.a + eta * self.c + xi * along
     }
 
-    fn d_xi(&self, [_, eta]: [f64; 2]) -> Vec3 {
-        axpy(self.b, eta, self.d)
+    fn d_xi(&self, [_, eta]: [f64; 2]) -> Vector3<f64> {
+        self.b + eta * self.d
     }
 
-    fn d_eta(&self, [xi, _]: [f64; 2]) -> Vec3 {
-        axpy(self.c, xi, self.d)
+    fn d_eta(&self, [xi, _]: [f64; 2]) -> Vector3<f64> {
+        self.c + xi * self.d
     }
 
     /// Half the squared distance's gradient and Hessian (xi xi, xi eta without curvature, eta eta, curvature).
     fn derivatives(&self, s: [f64; 2]) -> ([f64; 2], [f64; 4]) {
         let (r, u, v) = (self.at(s), self.d_xi(s), self.d_eta(s));
         (
-            [dot(r, u), dot(r, v)],
-            [dot(u, u), dot(u, v), dot(v, v), dot(r, self.d)],
+            [r.dot(&u), r.dot(&v)],
+            [
+                u.norm_squared(),
+                u.dot(&v),
+                v.norm_squared(),
+                r.dot(&self.d),
+            ],
         )
     }
 
@@ -231,7 +234,7 @@ impl Bilinear {
             (false, true) => [-g[0] / huu, 0.0],
             (false, false) => {
                 let full = huv + curvature;
-                let definite = |h: f64| huu * hvv - h * h > 1e-10 * huu * hvv;
+                let definite = |h: f64| huu * hvv - h * h > DEFINITE * huu * hvv;
                 // Far from a warped facet the Hessian turns indefinite: without its curvature term it cannot.
                 let h = if definite(full) { full } else { huv };
                 let det = huu * hvv - h * h;
@@ -247,11 +250,12 @@ impl Bilinear {
     fn minimise(&self, mut s: [f64; 2]) -> ([f64; 2], f64) {
         let value = |s: [f64; 2]| {
             let r = self.at(s);
-            dot(r, r)
+            r.norm_squared()
         };
         let mut f = value(s);
         // Near the minimum the value cannot tell a better point from round-off, but the gradient can.
-        let slack = 1e-14 * (dot(self.a, self.a) + dot(self.b, self.b) + dot(self.c, self.c));
+        let slack = VALUE_ROUND_OFF
+            * (self.a.norm_squared() + self.b.norm_squared() + self.c.norm_squared());
         for _ in 0..MAX_STEPS {
             let mut next = self.newton(s);
             let mut f_next = value(next);
@@ -277,11 +281,15 @@ impl Bilinear {
 const MAX_STEPS: usize = 60;
 /// In local coordinates: a few units of round-off.
 const STEP_TOLERANCE: f64 = 1e-14;
+/// Least determinant of a Hessian over the product of its diagonal \[-\] that counts as definite.
+const DEFINITE: f64 = 1e-10;
+/// Round-off of a squared distance over the squares it is the sum of \[-\].
+const VALUE_ROUND_OFF: f64 = 1e-14;
 
-fn quadrilateral(x: &[Vec3; 4], p: Vec3) -> FacetPoint {
+fn quadrilateral(x: &[Vector3<f64>; 4], p: Vector3<f64>) -> FacetPoint {
     let q = Bilinear::new(x, p);
     let (mut s, f) = q.minimise([0.5, 0.5]);
-    let r = [q.a, sub(x[1], p), sub(x[2], p), sub(x[3], p)];
+    let r = [q.a, x[1] - p, x[2] - p, x[3] - p];
     let (edge, t, f_border) = closest_on_border(&r);
     let settled = f <= f_border;
     if !settled {
@@ -321,25 +329,29 @@ fn place_in_square([xi, eta]: [f64; 2]) -> Place {
 }
 
 /// `sum_i N_i a_i`, for positions or vertex normals.
-pub(crate) fn interpolate(values: &[Vec3], weights: &[f64; 4]) -> Vec3 {
+pub(crate) fn interpolate(values: &[Vector3<f64>], weights: &[f64; 4]) -> Vector3<f64> {
     values
         .iter()
         .zip(weights)
-        .fold([0.0; 3], |sum, (a, w)| axpy(sum, *w, *a))
+        .fold(Vector3::zeros(), |sum, (a, w)| sum + *w * a)
 }
 
 /// The unit vector in the facet that points out of it across side `k`, at a point of that side: edge `k` of a
 /// face, vertex `k` of a line.
 ///
 /// Zero on a degenerate facet, which then has no outside.
-pub(crate) fn conormal(vertices: &[Vec3], side: usize, coordinates: [f64; 2]) -> Vec3 {
-    let e = sub(vertices[(side + 1) % vertices.len()], vertices[side]);
+pub(crate) fn conormal(
+    vertices: &[Vector3<f64>],
+    side: usize,
+    coordinates: [f64; 2],
+) -> Vector3<f64> {
+    let e = vertices[(side + 1) % vertices.len()] - vertices[side];
     let outward = if vertices.len() == 2 {
-        unit(scale(-1.0, e))
+        unit(-e)
     } else {
-        facet_normal(vertices, coordinates).and_then(|m| unit(cross(e, m)))
+        facet_normal(vertices, coordinates).and_then(|m| unit(e.cross(&m)))
     };
-    outward.unwrap_or([0.0; 3])
+    outward.unwrap_or_else(Vector3::zeros)
 }
 
 /// Local coordinates of vertex `k` of a facet with `count` vertices.

@@ -18,33 +18,35 @@ pub enum Master {
 
 /// A set of slave nodes and their master.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Interface {
     /// Name, for reports and errors.
     pub name: String,
     /// Slave nodes, in the order in which their contacts are numbered.
     pub slave: Vec<u32>,
-    /// Tributary reference area of each slave node [m^2; in the plane, m times unit thickness]. A node without area
+    /// Tributary reference area of each slave node \[m^2\]; in the plane, \[m\] times unit thickness. A node without area
     /// touches the master like the others, but has no bond.
     pub area: Vec<f64>,
     /// What the nodes may touch.
     pub master: Master,
-    /// Coulomb friction coefficient [-], >= 0.
+    /// Coulomb friction coefficient \[-\], >= 0.
     pub mu: f64,
-    /// Newton restitution coefficient [-], in [0, 1].
+    /// Newton restitution coefficient \[-\], in [0, 1].
     pub restitution: f64,
     /// A node closer than this to the master becomes a contact, open or closed \[m\]. A node that lies deeper
     /// than this behind a deformable master is not in contact: it came from the other side.
     pub search_distance: f64,
     /// How far a node may overhang the rim of a deformable master and still rest on it, as a part of the size
-    /// of the facet [-], >= 0. Enough for bodies with flush sides to stay in contact through round-off;
+    /// of the facet \[-\], >= 0. Enough for bodies with flush sides to stay in contact through round-off;
     /// larger values keep flush sides that bulge differently together, at the price of a ledge that wide.
     pub rim_tolerance: f64,
     /// Adhesion; `None` where the surfaces do not stick together.
     pub adhesion: Option<Adhesion>,
 }
 
-/// Default of [`Interface::rim_tolerance`] [-].
-pub const RIM_TOLERANCE: f64 = 1e-6;
+/// Default of [`Interface::rim_tolerance`] \[-\]: far above the round-off of a node that lies on the rim itself, far below
+/// what a surface bulges. Where flush bodies deform, give a ledge that they may bulge by.
+pub const RIM_ROUND_OFF: f64 = 1e-6;
 
 impl Interface {
     /// A frictionless interface without restitution and with the default rim tolerance.
@@ -63,8 +65,41 @@ impl Interface {
             mu: 0.0,
             restitution: 0.0,
             search_distance,
-            rim_tolerance: RIM_TOLERANCE,
+            rim_tolerance: RIM_ROUND_OFF,
             adhesion: None,
+        }
+    }
+
+    /// The same interface with the Coulomb friction coefficient `mu` \[-\].
+    #[must_use]
+    pub fn with_friction(self, mu: f64) -> Self {
+        Self { mu, ..self }
+    }
+
+    /// The same interface with a Newton restitution coefficient \[-\].
+    #[must_use]
+    pub fn with_restitution(self, restitution: f64) -> Self {
+        Self {
+            restitution,
+            ..self
+        }
+    }
+
+    /// The same interface with another [`rim_tolerance`](Self::rim_tolerance) \[-\].
+    #[must_use]
+    pub fn with_rim_tolerance(self, rim_tolerance: f64) -> Self {
+        Self {
+            rim_tolerance,
+            ..self
+        }
+    }
+
+    /// The same interface with bonds between its surfaces, or without.
+    #[must_use]
+    pub fn with_adhesion(self, adhesion: impl Into<Option<Adhesion>>) -> Self {
+        Self {
+            adhesion: adhesion.into(),
+            ..self
         }
     }
 

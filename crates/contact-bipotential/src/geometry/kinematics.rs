@@ -7,96 +7,14 @@
 mod condense;
 mod frame_rule;
 
+use nalgebra::Vector3;
+
 use crate::cone::Cone;
-use crate::geometry::vec3::{Vec3, axpy, dot, node_vector};
+use crate::geometry::contact::{Contact, ContactKey};
+use crate::geometry::vector::at_node;
 
 pub use condense::CompliancePart;
 pub use frame_rule::FrameRule;
-
-/// Nodes and weights whose combination is the motion of a slave node relative to its master.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stencil {
-    nodes: [u32; 5],
-    weights: [f64; 5],
-    count: u8,
-}
-
-impl Stencil {
-    /// The stencil of a node against a rigid obstacle.
-    pub fn rigid(slave: u32) -> Self {
-        Self {
-            nodes: [slave, 0, 0, 0, 0],
-            weights: [1.0, 0.0, 0.0, 0.0, 0.0],
-            count: 1,
-        }
-    }
-
-    /// The stencil of a node against up to 4 master nodes with shape functions `weights` [-], which sum to 1.
-    ///
-    /// Nodes beyond the fourth are ignored, as are weights that are exactly zero (edges and vertices).
-    pub fn deformable(slave: u32, nodes: &[u32], weights: &[f64]) -> Self {
-        let mut stencil = Self::rigid(slave);
-        for (node, w) in nodes
-            .iter()
-            .zip(weights)
-            .take(4)
-            .filter(|(_, w)| **w != 0.0)
-        {
-            let k = stencil.count as usize;
-            stencil.nodes[k] = *node;
-            stencil.weights[k] = -w;
-            stencil.count += 1;
-        }
-        stencil
-    }
-
-    /// Nodes, the slave first.
-    pub fn nodes(&self) -> &[u32] {
-        &self.nodes[..self.count as usize]
-    }
-
-    /// Weights [-], in the order of the nodes.
-    pub fn weights(&self) -> &[f64] {
-        &self.weights[..self.count as usize]
-    }
-
-    /// Pairs of node and weight.
-    pub fn iter(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        self.nodes()
-            .iter()
-            .copied()
-            .zip(self.weights().iter().copied())
-    }
-}
-
-/// A slave node near its master, open or closed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Contact {
-    /// Index of the interface.
-    pub interface: usize,
-    /// Slave node.
-    pub slave: u32,
-    /// Position of the slave node in [`Interface::slave`](crate::geometry::interface::Interface::slave).
-    pub slave_index: usize,
-    /// Relative motion of slave and master.
-    pub stencil: Stencil,
-    /// Rows `t1`, `t2`, `n`: orthonormal, right-handed, `n` out of the master towards the slave.
-    pub frame: [[f64; 3]; 3],
-    /// Signed distance to the master \[m\], negative where the slave is inside.
-    pub gap: f64,
-    /// Facet of the master surface; `None` for an obstacle.
-    pub facet: Option<u32>,
-    /// Displacement over the step of the obstacle's material point under the contact \[m\], global axes; zero for
-    /// a deformable master, whose motion the stencil holds.
-    pub obstacle_motion: [f64; 3],
-}
-
-impl Contact {
-    /// The unit normal.
-    pub fn normal(&self) -> [f64; 3] {
-        self.frame[2]
-    }
-}
 
 /// The contacts of one configuration, in the order of interfaces and slave nodes, with the operations of `H`.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +33,14 @@ impl ContactMap {
             dim,
             cone,
         }
+    }
+
+    /// Position of the contact with that key, if there is one.
+    ///
+    /// A binary search: the contacts are in the order of their keys, as a [`Detector`](crate::Detector) leaves them.
+    #[must_use]
+    pub fn find(&self, key: ContactKey) -> Option<usize> {
+        self.contacts.binary_search_by_key(&key, Contact::key).ok()
     }
 
     /// Number of contacts.
@@ -142,9 +68,9 @@ impl ContactMap {
         self.len() * self.cone.dim()
     }
 
-    /// The rows of a contact's frame that its cone has, in the order of the local vector.
-    fn rows(&self, contact: &Contact) -> [Vec3; 3] {
-        let [t1, t2, n] = contact.frame;
+    /// The axes of a contact's frame that its cone has, in the order of the local vector.
+    fn axes(&self, contact: &Contact) -> [Vector3<f64>; 3] {
+        let [t1, t2, n] = [0, 1, 2].map(|i| contact.frame.column(i).into_owned());
         match self.cone {
             Cone::Frictionless => [n, n, n],
             Cone::Planar => [t1, n, n],
@@ -158,12 +84,15 @@ impl ContactMap {
     pub fn apply(&self, u: &[f64], x: &mut [f64]) {
         let cone = self.cone.dim();
         for (contact, x) in self.contacts.iter().zip(x.chunks_exact_mut(cone)) {
-            let relative = contact.stencil.iter().fold([0.0; 3], |sum, (node, w)| {
-                axpy(sum, w, node_vector(u, self.dim, node))
-            });
-            let rows = self.rows(contact);
-            for (x, row) in x.iter_mut().zip(rows) {
-                *x = dot(row, relative);
+            let relative = contact
+                .stencil
+                .iter()
+                .fold(Vector3::zeros(), |sum, (node, w)| {
+                    sum + w * at_node(u, self.dim, node)
+                });
+            let axes = self.axes(contact);
+            for (x, axis) in x.iter_mut().zip(axes) {
+                *x = axis.dot(&relative);
             }
         }
     }
@@ -176,8 +105,8 @@ impl ContactMap {
         for (contact, r) in self.contacts.iter().zip(r.chunks_exact(cone)) {
             let force = r
                 .iter()
-                .zip(self.rows(contact))
-                .fold([0.0; 3], |sum, (r, row)| axpy(sum, *r, row));
+                .zip(self.axes(contact))
+                .fold(Vector3::zeros(), |sum, (r, row)| sum + *r * row);
             for (node, w) in contact.stencil.iter() {
                 let start = self.dim * node as usize;
                 for i in 0..self.dim {
@@ -197,8 +126,8 @@ impl ContactMap {
     pub fn slip_offsets(&self, offset: &mut [f64]) {
         let cone = self.cone.dim();
         for (contact, offset) in self.contacts.iter().zip(offset.chunks_exact_mut(cone)) {
-            for (x, row) in offset.iter_mut().zip(self.rows(contact)) {
-                *x = -dot(row, contact.obstacle_motion);
+            for (x, row) in offset.iter_mut().zip(self.axes(contact)) {
+                *x = -row.dot(&contact.obstacle_motion);
             }
         }
     }

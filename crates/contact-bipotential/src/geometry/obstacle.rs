@@ -1,10 +1,11 @@
 //! Rigid obstacles with prescribed motion: shape, signed gap, normal and the motion of the point under a contact.
 
 use fe_core::{Motion, Rotation};
+use nalgebra::Vector3;
 
 use crate::error::ParameterError;
 use crate::geometry::error::GeometryError;
-use crate::geometry::vec3::{Vec3, axpy, dot, norm, reject, scale, sub, unit};
+use crate::geometry::vector::{reject, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
 ///
@@ -15,41 +16,41 @@ pub enum Shape {
     /// A half-space.
     Plane {
         /// A point of its surface \[m\].
-        point: [f64; 3],
+        point: Vector3<f64>,
         /// Direction out of the solid; any length but zero.
-        normal: [f64; 3],
+        normal: Vector3<f64>,
     },
     /// A ball.
     Sphere {
         /// Centre \[m\].
-        center: [f64; 3],
+        center: Vector3<f64>,
         /// Radius \[m\].
         radius: f64,
     },
     /// An infinitely long solid cylinder.
     Cylinder {
         /// A point on the axis \[m\].
-        point: [f64; 3],
+        point: Vector3<f64>,
         /// Direction of the axis; any length but zero.
-        axis: [f64; 3],
+        axis: Vector3<f64>,
         /// Radius \[m\].
         radius: f64,
     },
     /// An infinitely tall solid cone: a sharp indenter.
     Cone {
         /// Apex \[m\].
-        apex: [f64; 3],
+        apex: Vector3<f64>,
         /// Direction from the apex into the solid; any length but zero.
-        axis: [f64; 3],
+        axis: Vector3<f64>,
         /// Angle between axis and surface \[rad\], in (0, pi/2).
         semi_apex_angle: f64,
     },
     /// An infinitely tall solid cylinder with a flat end and a sharp edge: a flat indenter.
     Punch {
         /// Centre of the flat end \[m\].
-        center: [f64; 3],
+        center: Vector3<f64>,
         /// Direction from the flat end into the solid; any length but zero.
-        axis: [f64; 3],
+        axis: Vector3<f64>,
         /// Radius \[m\].
         radius: f64,
     },
@@ -113,8 +114,8 @@ impl Shape {
 
     /// The shape where the motion takes it at time `t` \[s\].
     fn moved(&self, motion: &Motion, t: f64) -> Self {
-        let place = |x: [f64; 3]| motion.position(x.into(), t).into();
-        let turn = |a: [f64; 3]| motion.rotate(a.into(), t).into();
+        let place = |x| motion.position(x, t);
+        let turn = |a| motion.rotate(a, t);
         match *self {
             Shape::Plane { point, normal } => Shape::Plane {
                 point: place(point),
@@ -158,32 +159,26 @@ impl Shape {
     ///
     /// `core` \[m\]: a point this close to a place without a normal (centre, axis, apex, edge) takes the definite one.
     /// `advance` \[m\]: how far a flat end has come out of the solid.
-    fn closest(&self, x: Vec3, core: f64, advance: f64) -> SurfacePoint {
+    fn closest(&self, x: Vector3<f64>, core: f64, advance: f64) -> SurfacePoint {
         match *self {
             Shape::Plane { point, normal } => {
-                let gap = dot(normal, sub(x, point));
+                let gap = normal.dot(&(x - point));
                 SurfacePoint {
                     gap,
                     normal,
-                    point: axpy(x, -gap, normal),
+                    point: x - gap * normal,
                 }
             }
             Shape::Sphere { center, radius } => {
-                round(sub(x, center), center, radius, core, [0.0, 1.0, 0.0])
+                round(x - center, center, radius, core, Vector3::y())
             }
             Shape::Cylinder {
                 point,
                 axis,
                 radius,
             } => {
-                let along = axpy(point, dot(sub(x, point), axis), axis);
-                round(
-                    reject(sub(x, point), axis),
-                    along,
-                    radius,
-                    core,
-                    across(axis),
-                )
+                let along = point + (x - point).dot(&axis) * axis;
+                round(reject(x - point, axis), along, radius, core, across(axis))
             }
             Shape::Cone {
                 apex,
@@ -205,13 +200,19 @@ pub struct SurfacePoint {
     /// Signed distance \[m\], negative inside the solid.
     pub gap: f64,
     /// Unit normal out of the solid.
-    pub normal: [f64; 3],
+    pub normal: Vector3<f64>,
     /// The point \[m\].
-    pub point: [f64; 3],
+    pub point: Vector3<f64>,
 }
 
-fn round(arm: Vec3, center: Vec3, radius: f64, core: f64, definite: Vec3) -> SurfacePoint {
-    let distance = norm(arm);
+fn round(
+    arm: Vector3<f64>,
+    center: Vector3<f64>,
+    radius: f64,
+    core: f64,
+    definite: Vector3<f64>,
+) -> SurfacePoint {
+    let distance = arm.norm();
     let normal = if distance > core {
         unit(arm).unwrap_or(definite)
     } else {
@@ -220,16 +221,19 @@ fn round(arm: Vec3, center: Vec3, radius: f64, core: f64, definite: Vec3) -> Sur
     SurfacePoint {
         gap: distance - radius,
         normal,
-        point: axpy(center, radius, normal),
+        point: center + radius * normal,
     }
 }
 
+/// Largest z of a unit vector \[-\] that is far enough from the z axis to be told from it.
+const OFF_AXIS: f64 = 0.9;
+
 /// A fixed direction perpendicular to a unit vector.
-fn across(axis: Vec3) -> Vec3 {
-    let k = if axis[2].abs() < 0.9 {
-        [0.0, 0.0, 1.0]
+fn across(axis: Vector3<f64>) -> Vector3<f64> {
+    let k = if axis[2].abs() < OFF_AXIS {
+        Vector3::z()
     } else {
-        [1.0, 0.0, 0.0]
+        Vector3::x()
     };
     unit(reject(k, axis)).unwrap_or(k)
 }
@@ -239,11 +243,17 @@ fn across(axis: Vec3) -> Vec3 {
 /// The apex has no normal, and on the axis inside the solid every direction around is equally close: within
 /// `core` of either the normal is `-axis` and the gap the depth. A node under the tip then meets the tip
 /// head-on, whatever its round-off, instead of being pushed aside.
-fn cone(x: Vec3, apex: Vec3, axis: Vec3, angle: f64, core: f64) -> SurfacePoint {
-    let arm = sub(x, apex);
-    let s = dot(arm, axis);
+fn cone(
+    x: Vector3<f64>,
+    apex: Vector3<f64>,
+    axis: Vector3<f64>,
+    angle: f64,
+    core: f64,
+) -> SurfacePoint {
+    let arm = x - apex;
+    let s = arm.dot(&axis);
     let side = reject(arm, axis);
-    let rho = norm(side);
+    let rho = side.norm();
     let (sin, cos) = angle.sin_cos();
     let along = rho * sin + s * cos;
     let tip = |gap, normal| SurfacePoint {
@@ -252,15 +262,15 @@ fn cone(x: Vec3, apex: Vec3, axis: Vec3, angle: f64, core: f64) -> SurfacePoint 
         point: apex,
     };
     if rho <= core {
-        return tip(-s, scale(-1.0, axis));
+        return tip(-s, -axis);
     }
     if along <= 0.0 {
-        let distance = norm(arm);
-        return tip(distance, unit(arm).unwrap_or(scale(-1.0, axis)));
+        let distance = arm.norm();
+        return tip(distance, unit(arm).unwrap_or(-axis));
     }
-    let out = scale(1.0 / rho, side);
-    let normal = axpy(scale(cos, out), -sin, axis);
-    let point = axpy(axpy(apex, along * sin, out), along * cos, axis);
+    let out = (1.0 / rho) * side;
+    let normal = cos * out - sin * axis;
+    let point = apex + (along * sin) * out + (along * cos) * axis;
     SurfacePoint {
         gap: rho * cos - s * sin,
         normal,
@@ -274,25 +284,32 @@ fn cone(x: Vec3, apex: Vec3, axis: Vec3, angle: f64, core: f64) -> SurfacePoint 
 /// A node inside leaves by the way that is shorter, but one that the face has swept over in this step leaves by the
 /// face, however near to the wall: a step that is long against the elements at the edge must not push nodes aside.
 /// Within `core` of the edge a node is under the face.
-fn punch(x: Vec3, center: Vec3, axis: Vec3, radius: f64, core: f64, advance: f64) -> SurfacePoint {
-    let arm = sub(x, center);
-    let s = dot(arm, axis);
+fn punch(
+    x: Vector3<f64>,
+    center: Vector3<f64>,
+    axis: Vector3<f64>,
+    radius: f64,
+    core: f64,
+    advance: f64,
+) -> SurfacePoint {
+    let arm = x - center;
+    let s = arm.dot(&axis);
     let side = reject(arm, axis);
-    let rho = norm(side);
+    let rho = side.norm();
     let swept = s <= advance.max(radius - rho).max(core);
     if rho <= radius + core && swept {
         return SurfacePoint {
             gap: -s,
-            normal: scale(-1.0, axis),
-            point: axpy(x, -s, axis),
+            normal: -axis,
+            point: x - s * axis,
         };
     }
     let out = if rho > core {
-        scale(1.0 / rho, side)
+        (1.0 / rho) * side
     } else {
         across(axis)
     };
-    let point = axpy(axpy(center, radius, out), s.max(0.0), axis);
+    let point = center + radius * out + s.max(0.0) * axis;
     if s >= 0.0 {
         return SurfacePoint {
             gap: rho - radius,
@@ -300,9 +317,9 @@ fn punch(x: Vec3, center: Vec3, axis: Vec3, radius: f64, core: f64, advance: f64
             point,
         };
     }
-    let to_node = sub(x, point);
+    let to_node = x - point;
     SurfacePoint {
-        gap: norm(to_node),
+        gap: to_node.norm(),
         normal: unit(to_node).unwrap_or(out),
         point,
     }
@@ -374,7 +391,7 @@ impl Obstacle {
             t1,
         };
         if let Shape::Punch { center, axis, .. } = placed.shape {
-            placed.advance = -dot(axis, placed.displacement(center));
+            placed.advance = -axis.dot(&placed.displacement(center));
         }
         placed
     }
@@ -404,20 +421,20 @@ impl PlacedObstacle<'_> {
     /// (sphere), or a fixed direction across the axis (cylinder).
     ///
     /// A node that the face of a punch has swept over in this step meets the face, even where the wall is nearer.
-    pub fn closest(&self, x: [f64; 3], core: f64) -> SurfacePoint {
+    pub fn closest(&self, x: Vector3<f64>, core: f64) -> SurfacePoint {
         self.shape.closest(x, core, self.advance)
     }
 
     /// Displacement \[m\] over the step of the obstacle's material point that ends it at `point` \[m\].
-    pub fn displacement(&self, point: [f64; 3]) -> [f64; 3] {
-        self.motion.map_or([0.0; 3], |motion| {
-            let x = motion.pull_back(point.into(), self.t1);
-            (motion.displacement(x, self.t1) - motion.displacement(x, self.t0)).into()
+    pub fn displacement(&self, point: Vector3<f64>) -> Vector3<f64> {
+        self.motion.map_or_else(Vector3::zeros, |motion| {
+            let x = motion.pull_back(point, self.t1);
+            motion.displacement(x, self.t1) - motion.displacement(x, self.t0)
         })
     }
 }
 
-fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], ParameterError> {
+fn finite(name: &'static str, x: Vector3<f64>) -> Result<Vector3<f64>, ParameterError> {
     match x.iter().find(|c| !c.is_finite()) {
         Some(&value) => Err(ParameterError {
             name,
@@ -428,10 +445,10 @@ fn finite(name: &'static str, x: [f64; 3]) -> Result<[f64; 3], ParameterError> {
     }
 }
 
-fn direction(name: &'static str, a: [f64; 3]) -> Result<[f64; 3], ParameterError> {
+fn direction(name: &'static str, a: Vector3<f64>) -> Result<Vector3<f64>, ParameterError> {
     unit(a).ok_or(ParameterError {
         name,
-        value: norm(a),
+        value: a.norm(),
         bound: "must be a finite vector of length > 0",
     })
 }

@@ -3,6 +3,7 @@
 //! In the plane the surface is a chain of lines in z = 0, its boxes are flat and its rims are the ends of the chain.
 
 use fe_core::Surface;
+use nalgebra::Vector3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{
@@ -12,12 +13,15 @@ use parry3d_f64::partitioning::{
 use crate::geometry::facet::{
     FacetPoint, Place, closest_point, conormal, facet_normal, interpolate, vertex_coordinates,
 };
-use crate::geometry::vec3::{Vec3, axpy, dot, node_vector, norm, sub, unit};
+use crate::geometry::vector::{at_node, unit};
 
 /// Two facets are equally close when their distances agree to this part of the distance ..
 const TIE: f64 = 1e-12;
 /// .. or to this part of the facet's size, squared: round-off of a node that lies on the surface.
 const TIE_AT_ZERO: f64 = 1e-28;
+/// By how much the boxes of the tree are larger than their facets, over the reach of the search \[-\]: a master may move
+/// that far before the tree changes, and the larger it is, the more candidates are looked at.
+const PADDING: f64 = 0.1;
 
 /// A slave node's place on a master surface.
 pub(super) struct SurfaceContact {
@@ -25,7 +29,7 @@ pub(super) struct SurfaceContact {
     pub(super) nodes: [u32; 4],
     pub(super) count: usize,
     pub(super) weights: [f64; 4],
-    pub(super) normal: Vec3,
+    pub(super) normal: Vector3<f64>,
     pub(super) gap: f64,
 }
 
@@ -47,26 +51,25 @@ impl Touch {
 /// Axis-parallel box.
 #[derive(Clone, Copy, Debug)]
 struct Extent {
-    min: Vec3,
-    max: Vec3,
+    min: Vector3<f64>,
+    max: Vector3<f64>,
 }
 
 impl Extent {
-    fn of(points: impl Iterator<Item = Vec3>) -> Self {
+    fn of(points: impl Iterator<Item = Vector3<f64>>) -> Self {
         let empty = Self {
-            min: [f64::INFINITY; 3],
-            max: [f64::NEG_INFINITY; 3],
+            min: Vector3::repeat(f64::INFINITY),
+            max: Vector3::repeat(f64::NEG_INFINITY),
         };
         points.fold(empty, |b, x| Self {
-            min: std::array::from_fn(|i| b.min[i].min(x[i])),
-            max: std::array::from_fn(|i| b.max[i].max(x[i])),
+            min: b.min.zip_map(&x, f64::min),
+            max: b.max.zip_map(&x, f64::max),
         })
     }
 
-    fn distance_squared(&self, x: Vec3) -> f64 {
-        let d: Vec3 =
-            std::array::from_fn(|i| (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0));
-        dot(d, d)
+    fn distance_squared(&self, x: Vector3<f64>) -> f64 {
+        let d = Vector3::from_fn(|i, _| (self.min[i] - x[i]).max(x[i] - self.max[i]).max(0.0));
+        d.norm_squared()
     }
 
     fn is_apart(&self, other: &Self, reach: f64) -> bool {
@@ -74,11 +77,11 @@ impl Extent {
     }
 
     fn size(&self) -> f64 {
-        norm(sub(self.max, self.min))
+        (self.max - self.min).norm()
     }
 
     fn padded(&self, by: f64) -> Aabb {
-        let vector = |a: Vec3, s: f64| Vector::new(a[0] + s, a[1] + s, a[2] + s);
+        let vector = |a: Vector3<f64>, s: f64| Vector::new(a[0] + s, a[1] + s, a[2] + s);
         Aabb::new(vector(self.min, -by), vector(self.max, by))
     }
 }
@@ -98,8 +101,8 @@ pub(super) struct SurfaceSearch {
     rims: Vec<(u32, u8)>,
     /// Surface indices of the nodes on the axis of symmetry.
     axis: Vec<usize>,
-    points: Vec<Vec3>,
-    normals: Vec<Vec3>,
+    points: Vec<Vector3<f64>>,
+    normals: Vec<Vector3<f64>>,
     boxes: Vec<Extent>,
     tree: Option<Bvh>,
     workspace: BvhWorkspace,
@@ -166,12 +169,12 @@ impl SurfaceSearch {
         self.points.extend(
             self.nodes
                 .iter()
-                .map(|node| node_vector(positions, self.dim, *node)),
+                .map(|node| at_node(positions, self.dim, *node)),
         );
     }
 
     /// The box test: true if no slave can be within reach of the surface.
-    pub(super) fn is_out_of_reach(&self, slaves: impl Iterator<Item = Vec3>) -> bool {
+    pub(super) fn is_out_of_reach(&self, slaves: impl Iterator<Item = Vector3<f64>>) -> bool {
         let surface = Extent::of(self.points.iter().copied());
         Extent::of(slaves).is_apart(&surface, self.reach)
     }
@@ -187,7 +190,7 @@ impl SurfaceSearch {
             self.boxes
                 .push(Extent::of(corners.iter().map(|i| self.points[*i as usize])));
         }
-        let pad = 0.1 * self.reach;
+        let pad = PADDING * self.reach;
         let Some(tree) = &mut self.tree else {
             let leaves: Vec<Aabb> = self.boxes.iter().map(|b| b.padded(pad)).collect();
             self.tree = Some(Bvh::from_leaves(BvhBuildStrategy::Binned, &leaves));
@@ -205,16 +208,16 @@ impl SurfaceSearch {
     }
 
     /// Unit normals at the surface nodes, by surface index.
-    pub(super) fn set_normals(&mut self, normals: Vec<Vec3>) {
+    pub(super) fn set_normals(&mut self, normals: Vec<Vector3<f64>>) {
         self.normals = normals;
         for i in &self.axis {
-            let along = [0.0, self.normals[*i][1], 0.0];
-            self.normals[*i] = unit(along).unwrap_or([0.0; 3]);
+            let along = Vector3::new(0.0, self.normals[*i][1], 0.0);
+            self.normals[*i] = unit(along).unwrap_or_else(Vector3::zeros);
         }
     }
 
     /// Facets that may be closest to `x`, with the squared distances of their boxes; a superset.
-    fn candidates(&self, x: Vec3, found: &mut Vec<(f64, u32)>) {
+    fn candidates(&self, x: Vector3<f64>, found: &mut Vec<(f64, u32)>) {
         found.clear();
         let Some(tree) = &self.tree else { return };
         let mut limit = self.reach * self.reach;
@@ -227,8 +230,8 @@ impl SurfaceSearch {
                 let nearest = corners[..*count as usize]
                     .iter()
                     .map(|i| {
-                        let r = sub(self.points[*i as usize], x);
-                        dot(r, r)
+                        let r = self.points[*i as usize] - x;
+                        r.norm_squared()
                     })
                     .fold(f64::INFINITY, f64::min);
                 let extent = &self.boxes[facet as usize];
@@ -240,7 +243,7 @@ impl SurfaceSearch {
         });
     }
 
-    fn vertices<'a>(&self, facet: u32, buffer: &'a mut [Vec3; 4]) -> &'a [Vec3] {
+    fn vertices<'a>(&self, facet: u32, buffer: &'a mut [Vector3<f64>; 4]) -> &'a [Vector3<f64>] {
         let (corners, count) = &self.facets[facet as usize];
         for (x, i) in buffer.iter_mut().zip(corners) {
             *x = self.points[*i as usize];
@@ -248,13 +251,13 @@ impl SurfaceSearch {
         &buffer[..*count as usize]
     }
 
-    fn project(&self, facet: u32, x: Vec3) -> FacetPoint {
-        let mut buffer = [[0.0; 3]; 4];
+    fn project(&self, facet: u32, x: Vector3<f64>) -> FacetPoint {
+        let mut buffer = [Vector3::zeros(); 4];
         closest_point(self.vertices(facet, &mut buffer), x)
     }
 
     /// The contact of a node at `x`, if the surface is within reach; `found` is scratch.
-    pub(super) fn touch(&self, x: Vec3, found: &mut Vec<(f64, u32)>) -> Touch {
+    pub(super) fn touch(&self, x: Vector3<f64>, found: &mut Vec<(f64, u32)>) -> Touch {
         self.candidates(x, found);
         // By facet number, so that neither the shape of the tree nor its history can break a tie; the first to
         // be projected is the one with the nearest box, which settles most of the others.
@@ -290,25 +293,25 @@ impl SurfaceSearch {
         }
     }
 
-    fn contact(&self, x: Vec3, facet: u32, at: &FacetPoint) -> Option<SurfaceContact> {
+    fn contact(&self, x: Vector3<f64>, facet: u32, at: &FacetPoint) -> Option<SurfaceContact> {
         let (corners, count) = &self.facets[facet as usize];
         let count = *count as usize;
-        let corner_normals: [Vec3; 4] = corners.map(|i| self.normals[i as usize]);
-        let mut buffer = [[0.0; 3]; 4];
+        let corner_normals: [Vector3<f64>; 4] = corners.map(|i| self.normals[i as usize]);
+        let mut buffer = [Vector3::zeros(); 4];
         let vertices = self.vertices(facet, &mut buffer);
         let normal = unit(interpolate(&corner_normals[..count], &at.weights))
             .or_else(|| facet_normal(vertices, at.coordinates))?;
-        let whole = sub(x, at.point);
+        let whole = x - at.point;
         let offset = self.without_overhang(whole, facet, at)?;
         // The signed distance, not n . offset: the same on a flat surface, and continuous where the
         // closest point jumps from one side of a valley to the other, as n is not.
         let along_a_normal = match at.place {
-            Place::Interior => facet_normal(vertices, at.coordinates).map(|m| dot(m, offset)),
+            Place::Interior => facet_normal(vertices, at.coordinates).map(|m| m.dot(&offset)),
             // Two rims that meet at an angle leave some overhang of each other, which is no gap.
-            Place::Vertex(_) if offset != whole => Some(dot(normal, offset)),
+            Place::Vertex(_) if offset != whole => Some(normal.dot(&offset)),
             _ => None,
         };
-        let gap = along_a_normal.unwrap_or_else(|| norm(offset).copysign(dot(normal, offset)));
+        let gap = along_a_normal.unwrap_or_else(|| offset.norm().copysign(normal.dot(&offset)));
         Some(SurfaceContact {
             facet,
             nodes: corners.map(|i| self.nodes[i as usize]),
@@ -325,7 +328,12 @@ impl SurfaceSearch {
     /// Only the direction out of the surface across its rim counts: above a convex ridge that runs
     /// into the rim, a node is in contact like above any other ridge. The sign of the gap does not matter, or
     /// an open contact would hold up a node that falls past the rim.
-    fn without_overhang(&self, mut offset: Vec3, facet: u32, at: &FacetPoint) -> Option<Vec3> {
+    fn without_overhang(
+        &self,
+        mut offset: Vector3<f64>,
+        facet: u32,
+        at: &FacetPoint,
+    ) -> Option<Vector3<f64>> {
         match at.place {
             Place::Interior => Some(offset),
             Place::Edge(k) if self.rim_sides[facet as usize] & (1 << k) == 0 => Some(offset),
@@ -349,12 +357,18 @@ impl SurfaceSearch {
         }
     }
 
-    fn clip(&self, offset: Vec3, facet: u32, side: usize, coordinates: [f64; 2]) -> Option<Vec3> {
-        let mut buffer = [[0.0; 3]; 4];
+    fn clip(
+        &self,
+        offset: Vector3<f64>,
+        facet: u32,
+        side: usize,
+        coordinates: [f64; 2],
+    ) -> Option<Vector3<f64>> {
+        let mut buffer = [Vector3::zeros(); 4];
         let outward = conormal(self.vertices(facet, &mut buffer), side, coordinates);
-        let overhang = dot(offset, outward).max(0.0);
+        let overhang = offset.dot(&outward).max(0.0);
         let tolerance = self.rim_tolerance * self.boxes[facet as usize].size();
-        (overhang <= tolerance).then(|| axpy(offset, -overhang, outward))
+        (overhang <= tolerance).then(|| offset - overhang * outward)
     }
 }
 
@@ -363,11 +377,11 @@ fn tie(distance_squared: f64, extent: &Extent) -> f64 {
     TIE * distance_squared + TIE_AT_ZERO * size * size
 }
 
-fn node_distance_squared(node: &BvhNode, x: Vec3) -> f64 {
+fn node_distance_squared(node: &BvhNode, x: Vector3<f64>) -> f64 {
     let (min, max) = (node.mins(), node.maxs());
     Extent {
-        min: [min.x, min.y, min.z],
-        max: [max.x, max.y, max.z],
+        min: Vector3::new(min.x, min.y, min.z),
+        max: Vector3::new(max.x, max.y, max.z),
     }
     .distance_squared(x)
 }

@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::facet::closest_point;
-use crate::geometry::vec3::{dot, norm, sub};
 use fe_core::{Facet, Interpolation, Motion, Rotation, Surface, Table};
+use nalgebra::Matrix3;
 use proptest::prelude::*;
 
 /// A master grid of `n` by `m` facets on the unit square, `z` from a function, and the slaves' positions.
@@ -13,11 +13,16 @@ struct Scene {
     slave: Vec<u32>,
 }
 
-fn add(a: Vec3, b: Vec3) -> Vec3 {
-    axpy(a, 1.0, b)
-}
+/// Positions as they are written down.
+type Point3 = [f64; 3];
 
-fn grid(n: u32, m: u32, triangles: bool, at: impl Fn(f64, f64) -> Vec3, slaves: &[Vec3]) -> Scene {
+fn grid(
+    n: u32,
+    m: u32,
+    triangles: bool,
+    at: impl Fn(f64, f64) -> Point3,
+    slaves: &[Point3],
+) -> Scene {
     let mut positions = Vec::new();
     for j in 0..=m {
         for i in 0..=n {
@@ -45,12 +50,12 @@ fn grid(n: u32, m: u32, triangles: bool, at: impl Fn(f64, f64) -> Vec3, slaves: 
     }
 }
 
-fn flat(u: f64, v: f64) -> Vec3 {
+fn flat(u: f64, v: f64) -> Point3 {
     [u, v, 0.0]
 }
 
 /// Waves with slopes up to about `height * 6`.
-fn wavy(height: f64, phase: f64) -> impl Fn(f64, f64) -> Vec3 {
+fn wavy(height: f64, phase: f64) -> impl Fn(f64, f64) -> Point3 {
     move |u, v| {
         [
             u,
@@ -78,28 +83,28 @@ impl Scene {
         self.detector(reach).detect(&self.positions, 0.0, 1.0)
     }
 
-    fn move_slave(&mut self, index: usize, x: Vec3) {
+    fn move_slave(&mut self, index: usize, x: impl Into<Point3>) {
         let start = 3 * self.slave[index] as usize;
-        self.positions[start..start + 3].copy_from_slice(&x);
+        self.positions[start..start + 3].copy_from_slice(&x.into());
     }
 
-    fn vertices(&self, facet: &Facet) -> Vec<Vec3> {
+    fn vertices(&self, facet: &Facet) -> Vec<Vector3<f64>> {
         facet
             .nodes()
             .iter()
-            .map(|n| node_vector(&self.positions, 3, *n))
+            .map(|n| at_node(&self.positions, 3, *n))
             .collect()
     }
 }
 
-fn vector(size: f64) -> impl Strategy<Value = Vec3> {
-    [-size..size, -size..size, -size..size]
+fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    prop::array::uniform3(-size..size).prop_map(Vector3::from)
 }
 
-fn turned(axis: Vec3, angle: f64, shift: Vec3) -> Motion {
+fn turned(axis: Vector3<f64>, angle: f64, shift: Vector3<f64>) -> Motion {
     let constant = Table::constant;
     Motion {
-        translation: shift.map(constant),
+        translation: <[f64; 3]>::from(shift).map(constant),
         rotation: Some(Rotation::new([0.3, 0.1, -0.2], axis, constant(angle)).unwrap()),
     }
 }
@@ -120,7 +125,7 @@ proptest! {
             let distances: Vec<f64> = scene
                 .facets
                 .iter()
-                .map(|f| closest_point(&scene.vertices(f), *x).distance_squared.sqrt())
+                .map(|f| closest_point(&scene.vertices(f), Vector3::from(*x)).distance_squared.sqrt())
                 .collect();
             let least = distances.iter().copied().fold(f64::INFINITY, f64::min);
             let Some(contact) = found.next_if(|c| c.slave_index == k) else {
@@ -150,19 +155,19 @@ proptest! {
         let mut scene = grid(8, 8, triangles, &surface, &[[0.0; 3]]);
         let mut detector = scene.detector(0.2);
         let step = 1e-3;
-        let mut before: Option<(f64, Vec3)> = None;
+        let mut before: Option<(f64, Vector3<f64>)> = None;
         for k in 0..400 {
             let s = step * f64::from(k) - 0.2;
             let (u, v) = (from[0] + s * angle.cos(), from[1] + s * angle.sin());
             prop_assume!(u.min(v) > 0.05 && u.max(v) < 0.95);
-            let x = add(surface(u, v), [0.0, 0.0, height]);
+            let x = Vector3::from(surface(u, v)) + Vector3::new(0.0, 0.0, height);
             scene.move_slave(0, x);
             let map = detector.detect(&scene.positions, 0.0, 1.0);
             prop_assert_eq!(map.len(), 1);
             let gap = map.contacts[0].gap;
-            prop_assert!(norm(sub(map.contacts[0].normal(), [0.0, 0.0, 1.0])) < 1.0);
+            prop_assert!((map.contacts[0].normal() - Vector3::z()).norm() < 1.0);
             if let Some((last, at)) = before {
-                prop_assert!((gap - last).abs() <= norm(sub(x, at)) + 1e-14, "{last} -> {gap}");
+                prop_assert!((gap - last).abs() <= (x - at).norm() + 1e-14, "{last} -> {gap}");
             }
             before = Some((gap, x));
         }
@@ -174,7 +179,7 @@ proptest! {
     ) {
         let mut scene = grid(8, 8, triangles, wavy(0.05, phase), &[[0.0; 3]]);
         let mut detector = scene.detector(0.2);
-        let mut before: Option<(usize, [Vec3; 3])> = None;
+        let mut before: Option<(usize, Matrix3<f64>)> = None;
         let mut borders = 0;
         for k in 0..400 {
             let s = 1e-3 * f64::from(k) - 0.2;
@@ -195,7 +200,7 @@ proptest! {
                 borders += usize::from(last != facet);
                 for i in 0..3 {
                     // A normal turns by up to 1.8 per unit length, twice that where the gradient of a facet bunches.
-                    prop_assert!(norm(sub(c.frame[i], frame[i])) < 5e-3, "{:?} {:?}", c.frame, frame);
+                    prop_assert!((c.frame.column(i) - frame.column(i)).norm() < 5e-3, "{:?} {:?}", c.frame, frame);
                 }
             }
             before = Some((facet, c.frame));
@@ -222,7 +227,7 @@ proptest! {
         } else {
             vec![(1.0 - a) * (1.0 - b), a * (1.0 - b), a * b, (1.0 - a) * b]
         };
-        let p = x.iter().zip(&weights).fold([0.0; 3], |s, (x, w)| axpy(s, *w, *x));
+        let p = x.iter().zip(&weights).fold(Vector3::zeros(), |s, (x, w)| s + *w * x);
         scene.move_slave(0, p);
         let map = scene.detect(0.1);
         prop_assert_eq!(map.len(), 1);
@@ -234,23 +239,23 @@ proptest! {
         phase in 0.0f64..6.0, triangles in any::<bool>(), axis in vector(1.0), angle in -3.0f64..3.0, shift in vector(3.0),
         slaves in prop::collection::vec([0.05f64..0.95, 0.05f64..0.95, -0.15f64..0.15], 10),
     ) {
-        prop_assume!(norm(axis) > 0.1);
+        prop_assume!(axis.norm() > 0.1);
         let mut scene = grid(5, 4, triangles, wavy(0.05, phase), &slaves);
         let mut detector = scene.detector(0.3);
         let before = detector.detect(&scene.positions, 0.0, 1.0);
         let motion = turned(axis, angle, shift);
         for x in scene.positions.chunks_exact_mut(3) {
-            let moved = motion.position([x[0], x[1], x[2]].into(), 0.0);
+            let moved = motion.position(Vector3::new(x[0], x[1], x[2]), 0.0);
             x.copy_from_slice(moved.as_slice());
         }
         let after = detector.detect(&scene.positions, 0.0, 1.0);
         prop_assert_eq!(before.len(), after.len());
         for (a, b) in before.contacts.iter().zip(&after.contacts) {
             prop_assert!((a.gap - b.gap).abs() < 1e-13);
-            let normal = motion.rotate(a.normal().into(), 0.0).into();
+            let normal = motion.rotate(a.normal(), 0.0);
             // Between two equally close facets of a valley round-off may choose.
             if a.facet == b.facet {
-                prop_assert!(norm(sub(normal, b.normal())) < 1e-10);
+                prop_assert!((normal - b.normal()).norm() < 1e-10);
             }
         }
     }
@@ -260,11 +265,11 @@ proptest! {
         triangles in any::<bool>(), x in [0.11f64..0.89, 0.11f64..0.89, -0.1f64..0.1], direction in prop::collection::vec(-1.0f64..1.0, 3 * 37),
         axis in vector(1.0), angle in -3.0f64..3.0,
     ) {
-        prop_assume!(norm(axis) > 0.1);
+        prop_assume!(axis.norm() > 0.1);
         let mut scene = grid(5, 5, triangles, flat, &[x]);
-        let motion = turned(axis, angle, [0.0; 3]);
+        let motion = turned(axis, angle, Vector3::zeros());
         for x in scene.positions.chunks_exact_mut(3) {
-            x.copy_from_slice(motion.position([x[0], x[1], x[2]].into(), 0.0).as_slice());
+            x.copy_from_slice(motion.position(Vector3::new(x[0], x[1], x[2]), 0.0).as_slice());
         }
         let mut detector = scene.detector(0.3);
         let map = detector.detect(&scene.positions, 0.0, 1.0);

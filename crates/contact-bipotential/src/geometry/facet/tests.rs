@@ -1,26 +1,21 @@
 //! Projection against brute force, closed forms and its own optimality conditions.
 
 use super::*;
-use crate::geometry::vec3::norm;
 use proptest::prelude::*;
 
-fn add(a: Vec3, b: Vec3) -> Vec3 {
-    axpy(a, 1.0, b)
-}
-
-fn vector(size: f64) -> impl Strategy<Value = Vec3> {
-    [-size..size, -size..size, -size..size]
+fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    prop::array::uniform3(-size..size).prop_map(Vector3::from)
 }
 
 /// A unit square or triangle in the plane z = 0, each vertex moved by up to `warp`, seen through a random map.
-fn facet(count: usize, warp: f64) -> impl Strategy<Value = Vec<Vec3>> {
+fn facet(count: usize, warp: f64) -> impl Strategy<Value = Vec<Vector3<f64>>> {
     let moves = prop::collection::vec(vector(warp), count);
     (moves, vector(5.0), vector(1.0), 0.1f64..10.0).prop_map(|(moves, origin, axis, size)| {
         let corners = [
-            [0.0, 0.0, 0.0],
-            [1.0, 0.0, 0.0],
-            [1.0, 1.0, 0.0],
-            [0.0, 1.0, 0.0],
+            Vector3::zeros(),
+            Vector3::x(),
+            Vector3::new(1.0, 1.0, 0.0),
+            Vector3::y(),
         ];
         let pick = if moves.len() == 3 {
             [0, 1, 3, 3]
@@ -29,36 +24,33 @@ fn facet(count: usize, warp: f64) -> impl Strategy<Value = Vec<Vec3>> {
         };
         (0..moves.len())
             .map(|k| {
-                let x = add(corners[pick[k]], moves[k]);
-                axpy(origin, size, turn(axis, x))
+                let x = corners[pick[k]] + moves[k];
+                origin + size * turn(axis, x)
             })
             .collect()
     })
 }
 
 /// Rodrigues rotation by |axis| * pi about `axis`.
-fn turn(axis: Vec3, x: Vec3) -> Vec3 {
+fn turn(axis: Vector3<f64>, x: Vector3<f64>) -> Vector3<f64> {
     let Some(k) = unit(axis) else { return x };
-    let (s, c) = (norm(axis) * std::f64::consts::PI).sin_cos();
-    let along = scale(dot(k, x) * (1.0 - c), k);
-    add(add(scale(c, x), scale(s, cross(k, x))), along)
+    let (s, c) = (axis.norm() * std::f64::consts::PI).sin_cos();
+    let along = k.dot(&x) * (1.0 - c) * k;
+    c * x + s * k.cross(&x) + along
 }
 
-fn size(x: &[Vec3]) -> f64 {
-    norm(sub(x[1], x[0])).max(norm(sub(x[2], x[1])))
+fn size(x: &[Vector3<f64>]) -> f64 {
+    (x[1] - x[0]).norm().max((x[2] - x[1]).norm())
 }
 
 /// A point at most about one facet size away from the facet.
-fn near(x: &[Vec3], offset: Vec3) -> Vec3 {
-    let centre = scale(
-        1.0 / x.len() as f64,
-        x.iter().fold([0.0; 3], |s, a| add(s, *a)),
-    );
-    axpy(centre, size(x), offset)
+fn near(x: &[Vector3<f64>], offset: Vector3<f64>) -> Vector3<f64> {
+    let centre = x.iter().sum::<Vector3<f64>>() / x.len() as f64;
+    centre + size(x) * offset
 }
 
 /// Distance by dense sampling with one local refinement.
-fn brute_force(x: &[Vec3], p: Vec3) -> f64 {
+fn brute_force(x: &[Vector3<f64>], p: Vector3<f64>) -> f64 {
     let n = 30;
     let point = |u: f64, v: f64| {
         let w = if x.len() == 3 {
@@ -67,7 +59,7 @@ fn brute_force(x: &[Vec3], p: Vec3) -> f64 {
         } else {
             [(1.0 - u) * (1.0 - v), u * (1.0 - v), u * v, (1.0 - u) * v]
         };
-        norm(sub(interpolate(x, &w), p))
+        (interpolate(x, &w) - p).norm()
     };
     let (mut best, mut at, mut h) = (f64::INFINITY, (0.5, 0.5), 0.5);
     for _ in 0..6 {
@@ -88,13 +80,17 @@ fn brute_force(x: &[Vec3], p: Vec3) -> f64 {
 }
 
 /// The residual is perpendicular to every direction in which the point could still move.
-fn assert_optimal(x: &[Vec3], p: Vec3, c: &FacetPoint) -> Result<(), TestCaseError> {
-    let r = sub(p, c.point);
-    let scale_squared = size(x) * (size(x) + norm(r));
+fn assert_optimal(
+    x: &[Vector3<f64>],
+    p: Vector3<f64>,
+    c: &FacetPoint,
+) -> Result<(), TestCaseError> {
+    let r = p - c.point;
+    let scale_squared = size(x) * (size(x) + r.norm());
     for vertex in x {
         // Straight to a vertex stays inside a triangle; in a quadrilateral, only to first order on the facet.
         let toward = if x.len() == 3 {
-            sub(*vertex, c.point)
+            *vertex - c.point
         } else {
             let q = Bilinear::new(&[x[0], x[1], x[2], x[3]], p);
             let k = x.iter().position(|v| v == vertex).unwrap();
@@ -102,15 +98,12 @@ fn assert_optimal(x: &[Vec3], p: Vec3, c: &FacetPoint) -> Result<(), TestCaseErr
                 let goal = vertex_coordinates(4, k);
                 [goal[0] - c.coordinates[0], goal[1] - c.coordinates[1]]
             };
-            add(
-                scale(du, q.d_xi(c.coordinates)),
-                scale(dv, q.d_eta(c.coordinates)),
-            )
+            du * q.d_xi(c.coordinates) + dv * q.d_eta(c.coordinates)
         };
         prop_assert!(
-            dot(r, toward) <= 1e-11 * scale_squared,
+            r.dot(&toward) <= 1e-11 * scale_squared,
             "downhill by {}",
-            dot(r, toward)
+            r.dot(&toward)
         );
     }
     Ok(())
@@ -140,7 +133,7 @@ proptest! {
         let c = closest_point(&x, p);
         prop_assert!(c.weights.iter().all(|w| (0.0..=1.0).contains(w)));
         prop_assert!((c.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
-        prop_assert!(norm(sub(interpolate(&x, &c.weights), c.point)) < 1e-13 * (size(&x) + norm(c.point)));
+        prop_assert!((interpolate(&x, &c.weights) - c.point).norm() < 1e-13 * (size(&x) + c.point.norm()));
         match c.place {
             Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
             Place::Edge(k) => {
@@ -165,7 +158,7 @@ proptest! {
         };
         let p = interpolate(&x, &w);
         let c = closest_point(&x, p);
-        prop_assert!(c.distance_squared.sqrt() < 4e-15 * (size(&x) + norm(p)));
+        prop_assert!(c.distance_squared.sqrt() < 4e-15 * (size(&x) + p.norm()));
     }
 
     #[test]
@@ -180,10 +173,10 @@ proptest! {
 
 #[test]
 fn degenerate_facets_still_give_finite_points() {
-    let p = [0.3, 0.4, 1.0];
-    let a = [0.0; 3];
-    let b = [1.0, 0.0, 0.0];
-    let c = [1.0, 1.0, 0.0];
+    let p = Vector3::new(0.3, 0.4, 1.0);
+    let a = Vector3::zeros();
+    let b = Vector3::x();
+    let c = Vector3::new(1.0, 1.0, 0.0);
     for facet in [
         &[a, b, c, c][..],
         &[a, a, b, c],
@@ -207,49 +200,49 @@ fn degenerate_facets_still_give_finite_points() {
 #[test]
 fn clamping_tells_edge_and_vertex() {
     let x = [
-        [0.0, 0.0, 0.0],
-        [2.0, 0.0, 0.0],
-        [2.0, 2.0, 0.0],
-        [0.0, 2.0, 0.0],
+        Vector3::zeros(),
+        Vector3::new(2.0, 0.0, 0.0),
+        Vector3::new(2.0, 2.0, 0.0),
+        Vector3::new(0.0, 2.0, 0.0),
     ];
     let place = |p| closest_point(&x, p).place;
-    assert_eq!(place([1.0, 1.0, 3.0]), Place::Interior);
-    assert_eq!(place([1.0, -1.0, 3.0]), Place::Edge(0));
-    assert_eq!(place([3.0, 1.0, 3.0]), Place::Edge(1));
-    assert_eq!(place([1.0, 3.0, 3.0]), Place::Edge(2));
-    assert_eq!(place([-1.0, 1.0, 3.0]), Place::Edge(3));
-    assert_eq!(place([3.0, 3.0, 1.0]), Place::Vertex(2));
+    assert_eq!(place(Vector3::new(1.0, 1.0, 3.0)), Place::Interior);
+    assert_eq!(place(Vector3::new(1.0, -1.0, 3.0)), Place::Edge(0));
+    assert_eq!(place(Vector3::new(3.0, 1.0, 3.0)), Place::Edge(1));
+    assert_eq!(place(Vector3::new(1.0, 3.0, 3.0)), Place::Edge(2));
+    assert_eq!(place(Vector3::new(-1.0, 1.0, 3.0)), Place::Edge(3));
+    assert_eq!(place(Vector3::new(3.0, 3.0, 1.0)), Place::Vertex(2));
     let place = |p| closest_point(&x[..3], p).place;
-    assert_eq!(place([1.5, 0.5, 3.0]), Place::Interior);
-    assert_eq!(place([0.5, 1.5, 3.0]), Place::Edge(2));
-    assert_eq!(place([9.0, 2.5, 3.0]), Place::Vertex(2));
+    assert_eq!(place(Vector3::new(1.5, 0.5, 3.0)), Place::Interior);
+    assert_eq!(place(Vector3::new(0.5, 1.5, 3.0)), Place::Edge(2));
+    assert_eq!(place(Vector3::new(9.0, 2.5, 3.0)), Place::Vertex(2));
 }
 
 #[test]
 fn conormals_point_out_of_the_facet() {
     let x = [
-        [0.0, 0.0, 0.0],
-        [2.0, 0.0, 0.0],
-        [2.0, 2.0, 0.0],
-        [0.0, 2.0, 0.0],
+        Vector3::zeros(),
+        Vector3::new(2.0, 0.0, 0.0),
+        Vector3::new(2.0, 2.0, 0.0),
+        Vector3::new(0.0, 2.0, 0.0),
     ];
     let expected = [
-        [0.0, -1.0, 0.0],
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [-1.0, 0.0, 0.0],
+        Vector3::new(0.0, -1.0, 0.0),
+        Vector3::x(),
+        Vector3::y(),
+        Vector3::new(-1.0, 0.0, 0.0),
     ];
     for k in 0..4 {
-        assert!(norm(sub(conormal(&x, k, vertex_coordinates(4, k)), expected[k])) < 1e-15);
+        assert!((conormal(&x, k, vertex_coordinates(4, k)) - expected[k]).norm() < 1e-15);
     }
 }
 
-fn in_plane(size: f64) -> impl Strategy<Value = Vec3> {
-    (-size..size, -size..size).prop_map(|(x, y)| [x, y, 0.0])
+fn in_plane(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    (-size..size, -size..size).prop_map(|(x, y)| Vector3::new(x, y, 0.0))
 }
 
-fn flat_line() -> impl Strategy<Value = [Vec3; 2]> {
-    let long = |[a, b]: &[Vec3; 2]| norm(sub(*a, *b)) > 0.1;
+fn flat_line() -> impl Strategy<Value = [Vector3<f64>; 2]> {
+    let long = |[a, b]: &[Vector3<f64>; 2]| (*a - *b).norm() > 0.1;
     [in_plane(3.0), in_plane(3.0)].prop_filter("needs a length", long)
 }
 
@@ -260,20 +253,20 @@ proptest! {
     ) {
         let c = closest_point(&x, p);
         let d = c.distance_squared.sqrt();
-        let on_line = |t: f64| axpy(x[0], t, sub(x[1], x[0]));
-        let sampled = (0..=1000).map(|k| norm(sub(on_line(f64::from(k) * 1e-3), p))).fold(f64::INFINITY, f64::min);
+        let on_line = |t: f64| x[0] + t * (x[1] - x[0]);
+        let sampled = (0..=1000).map(|k| (on_line(f64::from(k) * 1e-3) - p).norm()).fold(f64::INFINITY, f64::min);
         prop_assert!(d <= sampled * (1.0 + 1e-12));
-        prop_assert!(sampled - d <= 1e-3 * norm(sub(x[1], x[0])));
+        prop_assert!(sampled - d <= 1e-3 * (x[1] - x[0]).norm());
         let [a, b, ..] = c.weights;
         prop_assert_eq!(c.weights[2..].iter().sum::<f64>(), 0.0);
         prop_assert!(a >= 0.0 && b >= 0.0 && (a + b - 1.0).abs() < 1e-15);
-        prop_assert!(norm(sub(axpy(scale(a, x[0]), b, x[1]), c.point)) < 1e-14);
-        prop_assert!((norm(sub(c.point, p)) - d).abs() < 1e-14);
+        prop_assert!((a * x[0] + b * x[1] - c.point).norm() < 1e-14);
+        prop_assert!(((c.point - p).norm() - d).abs() < 1e-14);
         match c.place {
             Place::Interior => {
                 let m = facet_normal(&x, c.coordinates).unwrap();
                 prop_assert!(a > 0.0 && b > 0.0);
-                prop_assert!((dot(m, sub(p, c.point)).abs() - d).abs() < 1e-13);
+                prop_assert!((m.dot(&(p - c.point)).abs() - d).abs() < 1e-13);
             }
             Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
             Place::Edge(_) => prop_assert!(false, "a line has no edges"),
@@ -283,14 +276,17 @@ proptest! {
 
 #[test]
 fn a_line_has_its_body_on_the_left_and_ends_in_points() {
-    let x = [[0.0; 3], [2.0, 0.0, 0.0]];
-    assert_eq!(facet_normal(&x, [0.5, 0.0]), Some([0.0, -1.0, 0.0]));
-    assert_eq!(conormal(&x, 0, [0.0; 2]), [-1.0, 0.0, 0.0]);
-    assert_eq!(conormal(&x, 1, vertex_coordinates(2, 1)), [1.0, 0.0, 0.0]);
+    let x = [Vector3::zeros(), Vector3::new(2.0, 0.0, 0.0)];
+    assert_eq!(
+        facet_normal(&x, [0.5, 0.0]),
+        Some(Vector3::new(0.0, -1.0, 0.0))
+    );
+    assert_eq!(conormal(&x, 0, [0.0; 2]), Vector3::new(-1.0, 0.0, 0.0));
+    assert_eq!(conormal(&x, 1, vertex_coordinates(2, 1)), Vector3::x());
     let place = |p| closest_point(&x, p).place;
-    assert_eq!(place([-1.0, 1.0, 0.0]), Place::Vertex(0));
-    assert_eq!(place([0.5, -1.0, 0.0]), Place::Interior);
-    assert_eq!(place([2.5, 0.0, 0.0]), Place::Vertex(1));
+    assert_eq!(place(Vector3::new(-1.0, 1.0, 0.0)), Place::Vertex(0));
+    assert_eq!(place(Vector3::new(0.5, -1.0, 0.0)), Place::Interior);
+    assert_eq!(place(Vector3::new(2.5, 0.0, 0.0)), Place::Vertex(1));
     let collapsed = [x[1], x[1]];
     assert_eq!(closest_point(&collapsed, x[0]).point, x[1]);
     assert_eq!(facet_normal(&collapsed, [0.0; 2]), None);

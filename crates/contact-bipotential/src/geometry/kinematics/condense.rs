@@ -5,9 +5,11 @@ use std::borrow::Borrow;
 use faer::Mat;
 use rayon::prelude::*;
 
-use super::ContactMap;
+use super::{Contact, ContactMap};
 use crate::geometry::error::GeometryError;
-use crate::geometry::vec3::Vec3;
+
+/// The axes of a contact's frame, one a row. Plain arrays: the loops below vectorise.
+type Rows = [[f64; 3]; 3];
 
 /// Marks a component without unknown in [`CompliancePart`].
 const NO_UNKNOWN: u32 = u32::MAX;
@@ -20,7 +22,7 @@ pub struct CompliancePart {
 }
 
 impl CompliancePart {
-    /// `c` is the dense compliance [m/N], both triangles filled, symmetric; `offset` gives the row of each
+    /// `c` is the dense compliance \[m/N\], both triangles filled, symmetric; `offset` gives the row of each
     /// displacement component of the mesh (`dim * node + component`), `u32::MAX` where there is none: fixed
     /// components and nodes of other bodies. Components beyond the end of `offset` have no row either.
     ///
@@ -39,7 +41,7 @@ impl CompliancePart {
         Ok(Self { offset, c })
     }
 
-    /// The compliance [m/N].
+    /// The compliance \[m/N\].
     pub fn compliance(&self) -> &Mat<f64> {
         &self.c
     }
@@ -131,7 +133,7 @@ impl<'a> BodyRows<'a> {
     fn response<const D: usize, const P: usize>(
         &self,
         b: usize,
-        frame: &[Vec3; 3],
+        axes: &Rows,
         work: &mut Scratch<P>,
     ) {
         let n = self.used.len();
@@ -154,7 +156,7 @@ impl<'a> BodyRows<'a> {
         let [z0, z1, z2] = &work.z;
         for (y, ((a, b), c)) in work.y.iter_mut().zip(z0.iter().zip(z1).zip(z2)) {
             for j in 0..D {
-                y[j] = frame[j][0] * a + frame[j][1] * b + frame[j][2] * c;
+                y[j] = axes[j][0] * a + axes[j][1] * b + axes[j][2] * c;
             }
         }
     }
@@ -164,7 +166,7 @@ impl<'a> BodyRows<'a> {
     fn add_block<const D: usize, const P: usize>(
         &self,
         a: usize,
-        frame: &[Vec3; 3],
+        axes: &Rows,
         y: &[[f64; P]],
         block: &mut [[f64; P]; 3],
     ) {
@@ -180,7 +182,7 @@ impl<'a> BodyRows<'a> {
         for i in 0..D {
             for k in 0..3 {
                 for j in 0..P {
-                    block[i][j] += frame[i][k] * sum[k][j];
+                    block[i][j] += axes[i][k] * sum[k][j];
                 }
             }
         }
@@ -206,7 +208,7 @@ impl<const P: usize> Scratch<P> {
     }
 
     /// The blocks of column `b` on and below the diagonal, summed over the bodies in order.
-    fn sum_blocks<const D: usize>(&mut self, bodies: &[BodyRows], frames: &[[Vec3; 3]], b: usize) {
+    fn sum_blocks<const D: usize>(&mut self, bodies: &[BodyRows], frames: &[Rows], b: usize) {
         self.blocks.clear();
         self.blocks.resize(frames.len() - b, [[0.0; P]; 3]);
         for body in bodies.iter().filter(|body| !body.entries(b).is_empty()) {
@@ -221,7 +223,7 @@ impl<const P: usize> Scratch<P> {
 }
 
 impl ContactMap {
-    /// Writes `W = H C H^T` [m/N] into `w`, resized to [`row_count`](ContactMap::row_count) squared; exactly symmetric.
+    /// Writes `W = H C H^T` \[m/N\] into `w`, resized to [`row_count`](ContactMap::row_count) squared; exactly symmetric.
     ///
     /// `C` is the sum of the bodies' compliances: two contacts couple through the bodies they share. Costs about
     /// `contacts^2 * stencil * 9` multiplications; only the lower triangle is computed. Columns are spread over
@@ -249,7 +251,8 @@ impl ContactMap {
         bodies: &[BodyRows],
         w: &mut Mat<f64>,
     ) {
-        let frames: Vec<[Vec3; 3]> = self.contacts.iter().map(|c| self.rows(c)).collect();
+        let rows = |c: &Contact| self.axes(c).map(<[f64; 3]>::from);
+        let frames: Vec<Rows> = self.contacts.iter().map(rows).collect();
         let chunks = w.par_col_chunks_mut(D).enumerate();
         chunks.for_each_init(Scratch::<P>::new, |work, (b, columns)| {
             work.sum_blocks::<D>(bodies, &frames, b);

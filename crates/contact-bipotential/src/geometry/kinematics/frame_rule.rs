@@ -1,6 +1,15 @@
 //! Frames of an interface: deterministic, right-handed and continuous in the normal.
 
-use crate::geometry::vec3::{Vec3, axpy, cross, dot, reject, unit};
+use nalgebra::{Matrix3, Vector3};
+
+use crate::geometry::vector::{reject, unit};
+
+/// A direction no mesh is aligned with, for interfaces without a typical normal: its opposite, where the rule is not
+/// continuous, is then as good as never met.
+const UNALIGNED: Vector3<f64> = Vector3::new(0.365_148, 0.547_723, 0.752_772);
+/// Least `1 + cos` of the angle between anchor and normal \[-\] for which the smallest rotation between them is told from
+/// round-off: nearer to the antipode than 1e-4 rad half a turn stands for it.
+const ANTIPODE: f64 = 1e-8;
 
 /// A rule that completes a unit normal to a frame, continuous in the normal.
 ///
@@ -9,31 +18,29 @@ use crate::geometry::vec3::{Vec3, axpy, cross, dot, reject, unit};
 /// is as far from the interface's normals as it can be. A fixed normal gives a fixed frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameRule {
-    anchor: Option<[Vec3; 3]>,
+    anchor: Option<Matrix3<f64>>,
 }
 
 impl FrameRule {
     /// The rule in space, anchored at the typical normal of an interface.
     ///
     /// `typical` need not be a unit vector; a closed surface has none, and then zero is welcome.
-    pub fn spatial(typical: [f64; 3]) -> Self {
-        // A direction no mesh is aligned with: the opposite normal is then as good as never met.
-        let fallback = [0.365_148, 0.547_723, 0.752_772];
+    pub fn spatial(typical: Vector3<f64>) -> Self {
         let n = unit(typical)
-            .or_else(|| unit(fallback))
-            .unwrap_or([0.0, 0.0, 1.0]);
+            .or_else(|| unit(UNALIGNED))
+            .unwrap_or_else(Vector3::z);
         // Cyclic choice, so that coordinate normals get coordinate tangents: e_z -> (e_x, e_y), e_x -> (e_y, e_z) ..
-        let [ax, ay, az] = n.map(f64::abs);
+        let [ax, ay, az]: [f64; 3] = n.abs().into();
         let seed = if az >= ax && az >= ay {
-            [1.0, 0.0, 0.0]
+            Vector3::x()
         } else if ax >= ay {
-            [0.0, 1.0, 0.0]
+            Vector3::y()
         } else {
-            [0.0, 0.0, 1.0]
+            Vector3::z()
         };
         let t1 = unit(reject(seed, n)).unwrap_or(seed);
         Self {
-            anchor: Some([t1, cross(n, t1), n]),
+            anchor: Some(Matrix3::from_columns(&[t1, n.cross(&t1), n])),
         }
     }
 
@@ -42,66 +49,83 @@ impl FrameRule {
         Self { anchor: None }
     }
 
-    /// Rows `t1`, `t2`, `n` of the frame at a unit normal; orthonormal to round-off and right-handed.
-    pub fn at(&self, n: [f64; 3]) -> [[f64; 3]; 3] {
-        let Some([a1, a2, a]) = self.anchor else {
-            return [[n[1], -n[0], 0.0], [0.0, 0.0, -1.0], n];
+    /// The frame at a unit normal, columns `t1`, `t2`, `n`: orthonormal to round-off and right-handed.
+    #[must_use]
+    pub fn at(&self, n: Vector3<f64>) -> Matrix3<f64> {
+        let Some(anchor) = self.anchor else {
+            return in_plane(n);
         };
+        let (a1, a) = (anchor.column(0).into_owned(), anchor.column(2).into_owned());
         if n == a {
-            return [a1, a2, a];
+            return anchor;
         }
-        let c = 1.0 + dot(a, n);
+        let c = 1.0 + a.dot(&n);
         // At the antipode the limit depends on the way there: half a turn about a1 is as good as any.
-        let turned = if c > 1e-8 {
-            let s = -dot(a1, n) / c;
-            axpy(axpy(a1, s, a), s, n)
+        let turned = if c > ANTIPODE {
+            let s = -a1.dot(&n) / c;
+            a1 + s * a + s * n
         } else {
             a1
         };
         let t1 = unit(reject(turned, n)).unwrap_or(a1);
-        [t1, cross(n, t1), n]
+        Matrix3::from_columns(&[t1, n.cross(&t1), n])
     }
+}
+
+/// The frame in the plane z = 0 on the unit normal `n`: `t1 = (n_y, -n_x, 0)`, `t2 = -e_z`.
+fn in_plane(n: Vector3<f64>) -> Matrix3<f64> {
+    Matrix3::from_columns(&[
+        Vector3::new(n[1], -n[0], 0.0),
+        Vector3::new(0.0, 0.0, -1.0),
+        n,
+    ])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::vec3::{norm, sub};
     use proptest::prelude::*;
 
-    fn direction() -> impl Strategy<Value = Vec3> {
-        [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0].prop_filter_map("no direction", |a| {
-            if norm(a) > 0.1 { unit(a) } else { None }
+    fn direction() -> impl Strategy<Value = Vector3<f64>> {
+        prop::array::uniform3(-1.0f64..1.0).prop_filter_map("no direction", |a| {
+            let a = Vector3::from(a);
+            if a.norm() > 0.1 { unit(a) } else { None }
         })
     }
 
-    fn assert_right_handed(f: [Vec3; 3]) {
-        for i in 0..3 {
-            for j in 0..3 {
-                let expected = if i == j { 1.0 } else { 0.0 };
-                assert!((dot(f[i], f[j]) - expected).abs() < 1e-14, "{f:?}");
-            }
-        }
-        assert!(dot(cross(f[0], f[1]), f[2]) > 0.999);
+    fn assert_right_handed(f: Matrix3<f64>) {
+        assert!((f.tr_mul(&f) - Matrix3::identity()).amax() < 1e-14, "{f}");
+        let across = f.column(0).cross(&f.column(1));
+        assert!((across - f.column(2)).amax() < 1e-14, "{f}");
     }
 
     proptest! {
         #[test]
         fn frames_are_orthonormal_and_right_handed(a in direction(), n in direction()) {
             assert_right_handed(FrameRule::spatial(a).at(n));
-            let flat = unit([n[0], n[1] + 2.0, 0.0]).unwrap();
+            let flat = unit(Vector3::new(n[0], n[1] + 2.0, 0.0)).unwrap();
             assert_right_handed(FrameRule::planar().at(flat));
         }
 
         #[test]
+        fn frames_are_right_handed_and_orthonormal_at_their_anchor(n in direction()) {
+            let f = FrameRule::spatial(n).at(n);
+            assert_right_handed(f);
+            let w = Vector3::new(0.3, -1.0, 2.0);
+            prop_assert!((f * f.tr_mul(&w) - w).amax() < 1e-14);
+            prop_assume!(n[0].hypot(n[1]) > 1e-3);
+            assert_right_handed(FrameRule::planar().at(unit(Vector3::new(n[0], n[1], 0.0)).unwrap()));
+        }
+
+        #[test]
         fn frames_are_continuous_away_from_the_antipode(a in direction(), n in direction(), d in direction()) {
-            prop_assume!(dot(a, n) > -0.9);
-            let m = unit(axpy(n, 1e-7, d)).unwrap();
+            prop_assume!(a.dot(&n) > -0.9);
+            let m = unit(n + 1e-7 * d).unwrap();
             let rule = FrameRule::spatial(a);
             let (f, g) = (rule.at(n), rule.at(m));
             // The tangents turn at most 2 / (1 + cos) times as fast as the normal.
             for i in 0..2 {
-                prop_assert!(norm(sub(f[i], g[i])) < 1e-7 * 25.0);
+                prop_assert!((f.column(i) - g.column(i)).norm() < 1e-7 * 25.0);
             }
         }
     }
@@ -109,12 +133,20 @@ mod tests {
     #[test]
     fn coordinate_normals_get_coordinate_tangents() {
         for k in 0..3 {
-            let mut n = [0.0; 3];
+            let mut n = Vector3::zeros();
             n[k] = 1.0;
             let f = FrameRule::spatial(n).at(n);
-            assert_eq!(f[0][(k + 1) % 3], 1.0);
-            assert_eq!(f[1][(k + 2) % 3], 1.0);
+            assert_eq!(f[((k + 1) % 3, 0)], 1.0);
+            assert_eq!(f[((k + 2) % 3, 1)], 1.0);
         }
-        assert_right_handed(FrameRule::spatial([0.0, 0.0, 1.0]).at([0.0, 0.0, -1.0]));
+        assert_right_handed(FrameRule::spatial(Vector3::z()).at(-Vector3::z()));
+    }
+
+    #[test]
+    fn poles_are_regular() {
+        for pole in [Vector3::z(), -Vector3::z()] {
+            assert_right_handed(FrameRule::spatial(pole).at(pole));
+            assert_right_handed(FrameRule::spatial(Vector3::zeros()).at(pole));
+        }
     }
 }

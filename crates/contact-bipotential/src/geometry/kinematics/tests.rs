@@ -1,16 +1,22 @@
 //! `H` against its transpose and against a dense matrix built entry by entry.
 
 use super::*;
-use crate::geometry::vec3::{cross, norm, unit};
+use crate::geometry::contact::Stencil;
+use crate::geometry::vector::unit;
 use faer::Mat;
+use nalgebra::Matrix3;
 use proptest::prelude::*;
 
 const NODES: usize = 12;
 
-fn frame() -> impl Strategy<Value = [Vec3; 3]> {
-    [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0]
-        .prop_filter("needs a direction", |a| norm(*a) > 0.1)
-        .prop_map(|a| FrameRule::spatial([0.1, 0.2, 0.3]).at(unit(a).unwrap()))
+fn vector() -> impl Strategy<Value = Vector3<f64>> {
+    prop::array::uniform3(-1.0f64..1.0).prop_map(Vector3::from)
+}
+
+fn frame() -> impl Strategy<Value = Matrix3<f64>> {
+    vector()
+        .prop_filter("needs a direction", |a| a.norm() > 0.1)
+        .prop_map(|a| FrameRule::spatial(Vector3::new(0.1, 0.2, 0.3)).at(unit(a).unwrap()))
 }
 
 fn contact() -> impl Strategy<Value = Contact> {
@@ -24,26 +30,18 @@ fn contact() -> impl Strategy<Value = Contact> {
             (1.0 - a) * b
         ]),
     ];
-    (
-        0u32..6,
-        6u32..9,
-        weights,
-        frame(),
-        [-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0],
-    )
-        .prop_map(|(slave, first, weights, frame, obstacle_motion)| {
+    (0u32..6, 6u32..9, weights, frame(), vector()).prop_map(
+        |(slave, first, weights, frame, obstacle_motion)| {
             let nodes: Vec<u32> = (0..weights.len() as u32).map(|k| first + k).collect();
-            Contact {
-                interface: 0,
-                slave,
-                slave_index: slave as usize,
-                stencil: Stencil::deformable(slave, &nodes, &weights),
+            Contact::new(
+                ContactKey::new(0, slave as usize),
+                Stencil::deformable(slave, &nodes, &weights),
                 frame,
-                gap: 0.0,
-                facet: None,
-                obstacle_motion,
-            }
-        })
+                0.0,
+            )
+            .on_moving_obstacle(obstacle_motion)
+        },
+    )
 }
 
 /// Maps with 1, 2 or 3 rows a contact, in space and in the plane.
@@ -57,8 +55,8 @@ fn map() -> impl Strategy<Value = ContactMap> {
     (prop::collection::vec(contact(), 0..8), shape).prop_map(|(mut contacts, (dim, cone))| {
         if dim == 2 {
             for contact in &mut contacts {
-                let [_, _, n] = contact.frame;
-                let n = unit([n[0] + 1.5, n[1], 0.0]).unwrap();
+                let n = contact.normal();
+                let n = unit(Vector3::new(n[0] + 1.5, n[1], 0.0)).unwrap();
                 contact.frame = FrameRule::planar().at(n);
             }
         }
@@ -74,7 +72,7 @@ fn numbers(n: usize) -> impl Strategy<Value = Vec<f64>> {
 fn dense(map: &ContactMap) -> Vec<Vec<f64>> {
     let mut h = vec![vec![0.0; map.dim() * NODES]; map.row_count()];
     for (k, contact) in map.contacts.iter().enumerate() {
-        let [t1, t2, n] = contact.frame;
+        let [t1, t2, n] = [0, 1, 2].map(|i| contact.frame.column(i).into_owned());
         let rows = match map.cone().dim() {
             1 => vec![n],
             2 => vec![t1, n],
@@ -209,17 +207,13 @@ fn delassus_has_the_same_bits_for_any_number_of_threads() {
     let nodes: u32 = 90;
     let contacts: Vec<Contact> = (0..40)
         .map(|k| {
-            let n = unit([(k as f64).sin(), (k as f64).cos(), 1.0]).unwrap();
-            Contact {
-                interface: 0,
-                slave: k,
-                slave_index: k as usize,
-                stencil: Stencil::deformable(k, &[40 + k, 41 + k, 43 + k], &[0.2, 0.3, 0.5]),
-                frame: FrameRule::spatial([0.0, 0.0, 1.0]).at(n),
-                gap: 0.0,
-                facet: None,
-                obstacle_motion: [0.0; 3],
-            }
+            let n = unit(Vector3::new((k as f64).sin(), (k as f64).cos(), 1.0)).unwrap();
+            Contact::new(
+                ContactKey::new(0, k as usize),
+                Stencil::deformable(k, &[40 + k, 41 + k, 43 + k], &[0.2, 0.3, 0.5]),
+                FrameRule::spatial(Vector3::z()).at(n),
+                0.0,
+            )
         })
         .collect();
     let map = ContactMap::new(contacts, 3, Cone::Spatial);
@@ -251,18 +245,10 @@ fn compliances_that_do_not_fit_are_refused() {
 
 #[test]
 fn the_normal_row_is_last() {
-    let contact = Contact {
-        interface: 0,
-        slave: 0,
-        slave_index: 0,
-        stencil: Stencil::rigid(0),
-        frame: FrameRule::spatial([0.0, 0.0, 1.0]).at([0.0, 0.0, 1.0]),
-        gap: 0.5,
-        facet: None,
-        obstacle_motion: [0.0; 3],
-    };
-    let [t1, t2, n] = contact.frame;
-    assert_eq!(cross(t1, t2), n);
+    let frame = FrameRule::spatial(Vector3::z()).at(Vector3::z());
+    let contact = Contact::new(ContactKey::new(0, 0), Stencil::rigid(0), frame, 0.5);
+    let [t1, t2, n] = [0, 1, 2].map(|i| contact.frame.column(i).into_owned());
+    assert_eq!(t1.cross(&t2), n);
     let map = ContactMap::new(vec![contact], 3, Cone::Spatial);
     let mut x = [0.0; 3];
     map.apply(&[1.0, 2.0, 3.0], &mut x);

@@ -6,12 +6,12 @@ use proptest::prelude::*;
 
 const CORE: f64 = 1e-12;
 
-fn vector(size: f64) -> impl Strategy<Value = Vec3> {
-    [-size..size, -size..size, -size..size]
+fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    prop::array::uniform3(-size..size).prop_map(Vector3::from)
 }
 
-fn axis() -> impl Strategy<Value = Vec3> {
-    vector(1.0).prop_filter("needs a direction", |a| norm(*a) > 0.1)
+fn axis() -> impl Strategy<Value = Vector3<f64>> {
+    vector(1.0).prop_filter("needs a direction", |a| a.norm() > 0.1)
 }
 
 fn shape() -> impl Strategy<Value = Shape> {
@@ -56,11 +56,11 @@ proptest! {
         let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
         let placed = obstacle.over_step(0.0, 1.0);
         let at = placed.closest(x, CORE);
-        prop_assert!((norm(at.normal) - 1.0).abs() < 1e-14);
+        prop_assert!((at.normal.norm() - 1.0).abs() < 1e-14);
         // The node lies on the normal through the closest point, at the gap, and that point on the surface.
-        prop_assert!(norm(sub(axpy(at.point, at.gap, at.normal), x)) < 1e-13);
+        prop_assert!((at.point + at.gap * at.normal - x).norm() < 1e-13);
         prop_assert!(placed.closest(at.point, CORE).gap.abs() < 1e-13);
-        prop_assert_eq!(placed.displacement(at.point), [0.0; 3]);
+        prop_assert_eq!(placed.displacement(at.point), Vector3::zeros());
     }
 
     #[test]
@@ -71,7 +71,7 @@ proptest! {
         for y in samples {
             // A signed distance changes no faster than its argument.
             let other = placed.closest(y, CORE).gap;
-            prop_assert!((gap - other).abs() <= norm(sub(x, y)) + 1e-13);
+            prop_assert!((gap - other).abs() <= (x - y).norm() + 1e-13);
         }
     }
 
@@ -82,15 +82,15 @@ proptest! {
         let at = placed.closest(x, CORE);
         let h = 1e-5;
         // Centre and axis have no gradient.
-        prop_assume!(norm(sub(x, at.point)) + at.gap.abs() > 0.0);
+        prop_assume!((x - at.point).norm() + at.gap.abs() > 0.0);
         let gap = |i: usize, s: f64| {
             let mut y = x;
             y[i] += s;
             placed.closest(y, CORE).gap
         };
-        let gradient: Vec3 = std::array::from_fn(|i| (gap(i, h) - gap(i, -h)) / (2.0 * h));
-        prop_assume!((norm(gradient) - 1.0).abs() < 1e-4);
-        prop_assert!(norm(sub(gradient, at.normal)) < 1e-3);
+        let gradient = Vector3::from_fn(|i, _| (gap(i, h) - gap(i, -h)) / (2.0 * h));
+        prop_assume!((gradient.norm() - 1.0).abs() < 1e-4);
+        prop_assert!((gradient - at.normal).norm() < 1e-3);
     }
 
     #[test]
@@ -98,41 +98,41 @@ proptest! {
         let still = Obstacle::new(shape, Motion::still()).unwrap();
         let moving = Obstacle::new(shape, motion.clone()).unwrap();
         let before = still.over_step(0.0, t).closest(x, CORE);
-        let after = moving.over_step(t, t).closest(motion.position(x.into(), t).into(), CORE);
+        let after = moving.over_step(t, t).closest(motion.position(x, t), CORE);
         prop_assert!((before.gap - after.gap).abs() < 1e-13);
-        prop_assert!(norm(sub(motion.rotate(before.normal.into(), t).into(), after.normal)) < 1e-10);
-        prop_assert!(norm(sub(motion.position(before.point.into(), t).into(), after.point)) < 1e-10);
+        prop_assert!((motion.rotate(before.normal, t) - after.normal).norm() < 1e-10);
+        prop_assert!((motion.position(before.point, t) - after.point).norm() < 1e-10);
     }
 
     #[test]
     fn displacement_is_that_of_the_material_point(motion in motion(), x in vector(3.0), t0 in 0.0f64..0.5, t1 in 0.5f64..1.0) {
-        let plane = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+        let plane = Shape::Plane { point: Vector3::zeros(), normal: Vector3::z() };
         let obstacle = Obstacle::new(plane, motion.clone()).unwrap();
-        let moved = obstacle.over_step(t0, t1).displacement(motion.position(x.into(), t1).into());
-        prop_assert!(norm(sub(moved, sub(motion.position(x.into(), t1).into(), motion.position(x.into(), t0).into()))) < 1e-13);
+        let moved = obstacle.over_step(t0, t1).displacement(motion.position(x, t1));
+        prop_assert!((moved - (motion.position(x, t1) - motion.position(x, t0))).norm() < 1e-13);
         // A rate exists: over a short step the displacement is velocity times step.
         let dt = 1e-6;
-        let short = obstacle.over_step(t1 - dt, t1).displacement(motion.position(x.into(), t1).into());
-        prop_assert!(norm(sub(scale(1.0 / dt, short), motion.velocity(x.into(), t1 - 0.5 * dt).into())) < 1e-7);
+        let short = obstacle.over_step(t1 - dt, t1).displacement(motion.position(x, t1));
+        prop_assert!((1.0 / dt * short - motion.velocity(x, t1 - 0.5 * dt)).norm() < 1e-7);
     }
 }
 
 #[test]
 fn parameters_outside_their_bounds_are_refused() {
-    let point = [0.0; 3];
-    let axis = [0.0, 0.0, 1.0];
+    let point = Vector3::zeros();
+    let axis = Vector3::z();
     let bad = [
         Shape::Plane {
             point,
-            normal: [0.0; 3],
+            normal: Vector3::zeros(),
         },
         Shape::Plane {
-            point: [f64::NAN, 0.0, 0.0],
+            point: Vector3::new(f64::NAN, 0.0, 0.0),
             normal: axis,
         },
         Shape::Plane {
             point,
-            normal: [f64::INFINITY, 0.0, 0.0],
+            normal: Vector3::new(f64::INFINITY, 0.0, 0.0),
         },
         Shape::Sphere {
             center: point,
@@ -148,7 +148,7 @@ fn parameters_outside_their_bounds_are_refused() {
         },
         Shape::Cylinder {
             point,
-            axis: [0.0; 3],
+            axis: Vector3::zeros(),
             radius: 1.0,
         },
         Shape::Cylinder {
@@ -173,16 +173,16 @@ fn parameters_outside_their_bounds_are_refused() {
         },
         Shape::Cone {
             apex: point,
-            axis: [f64::NAN; 3],
+            axis: Vector3::repeat(f64::NAN),
             semi_apex_angle: 1.0,
         },
         Shape::Punch {
             center: point,
-            axis: [0.0; 3],
+            axis: Vector3::zeros(),
             radius: 1.0,
         },
         Shape::Punch {
-            center: [0.0, f64::NAN, 0.0],
+            center: Vector3::new(0.0, f64::NAN, 0.0),
             axis,
             radius: 1.0,
         },
@@ -201,31 +201,31 @@ fn parameters_outside_their_bounds_are_refused() {
 #[test]
 fn a_node_under_the_tip_meets_it_head_on() {
     let down = Shape::Cone {
-        apex: [0.0; 3],
-        axis: [0.0, 0.0, 1.0],
+        apex: Vector3::zeros(),
+        axis: Vector3::z(),
         semi_apex_angle: 1.0,
     };
     let obstacle = Obstacle::new(down, Motion::still()).unwrap();
     let placed = obstacle.over_step(0.0, 0.0);
     for z in [-0.5, -1e-17, 0.0, 1e-17, 0.5] {
         for x in [0.0, 1e-15, -1e-13] {
-            let at = placed.closest([x, 0.0, z], 1e-9);
-            assert_eq!(at.normal, [0.0, 0.0, -1.0]);
+            let at = placed.closest(Vector3::new(x, 0.0, z), 1e-9);
+            assert_eq!(at.normal, -Vector3::z());
             assert_eq!(at.gap, -z);
         }
     }
     // Beside the tip the surface has its own normal again.
-    let side = placed.closest([0.1, 0.0, 0.1], 1e-9);
-    let expected = [1.0f64.cos(), 0.0, -1.0f64.sin()];
-    assert!(norm(sub(side.normal, expected)) < 1e-15);
+    let side = placed.closest(Vector3::new(0.1, 0.0, 0.1), 1e-9);
+    let expected = Vector3::new(1.0f64.cos(), 0.0, -1.0f64.sin());
+    assert!((side.normal - expected).norm() < 1e-15);
     assert!((side.gap - 0.1 * (1.0f64.cos() - 1.0f64.sin())).abs() < 1e-16);
 }
 
 /// A punch of radius 1 that stands on z = 0, and moves by `-sunk` along z from t = 0 to 1.
 fn upright_punch(sunk: f64) -> Obstacle {
     let punch = Shape::Punch {
-        center: [0.0, 0.0, sunk],
-        axis: [0.0, 0.0, 3.0],
+        center: Vector3::new(0.0, 0.0, sunk),
+        axis: Vector3::new(0.0, 0.0, 3.0),
         radius: 1.0,
     };
     let down = Table::new(vec![(0.0, 0.0), (1.0, -sunk)], Interpolation::Linear).unwrap();
@@ -235,28 +235,28 @@ fn upright_punch(sunk: f64) -> Obstacle {
 
 #[test]
 fn around_the_edge_of_a_punch_the_nearest_surface_counts() {
-    let (down, out) = ([0.0, 0.0, -1.0], [1.0, 0.0, 0.0]);
-    let slanted = [0.6, 0.0, -0.8];
+    let (down, out) = (-Vector3::z(), Vector3::x());
+    let slanted = Vector3::new(0.6, 0.0, -0.8);
     let cases = [
         // Below the face, at its edge, above it.
-        ([0.2, 0.0, -0.3], 0.3, down),
-        ([1.0, 0.0, -0.3], 0.3, down),
-        ([1.0, 0.0, 0.0], 0.0, down),
-        ([0.9, 0.0, 0.05], -0.05, down),
+        (Vector3::new(0.2, 0.0, -0.3), 0.3, down),
+        (Vector3::new(1.0, 0.0, -0.3), 0.3, down),
+        (Vector3::x(), 0.0, down),
+        (Vector3::new(0.9, 0.0, 0.05), -0.05, down),
         // Beside the wall and inside it, farther from the face.
-        ([1.3, 0.0, 0.0], 0.3, out),
-        ([1.3, 0.0, 7.0], 0.3, out),
-        ([0.9, 0.0, 0.2], -0.1, out),
-        ([1.0, 0.0, 0.2], 0.0, out),
+        (Vector3::new(1.3, 0.0, 0.0), 0.3, out),
+        (Vector3::new(1.3, 0.0, 7.0), 0.3, out),
+        (Vector3::new(0.9, 0.0, 0.2), -0.1, out),
+        (Vector3::new(1.0, 0.0, 0.2), 0.0, out),
         // Beyond the edge and below.
-        ([1.6, 0.0, -0.8], 1.0, slanted),
+        (Vector3::new(1.6, 0.0, -0.8), 1.0, slanted),
     ];
     let obstacle = upright_punch(0.0);
     let placed = obstacle.over_step(0.0, 1.0);
     for (x, gap, normal) in cases {
         let at = placed.closest(x, 1e-9);
         assert!((at.gap - gap).abs() < 1e-15, "{x:?}: {at:?}");
-        assert!(norm(sub(at.normal, normal)) < 1e-15, "{x:?}: {at:?}");
+        assert!((at.normal - normal).norm() < 1e-15, "{x:?}: {at:?}");
     }
 }
 
@@ -266,49 +266,52 @@ fn nodes_that_the_face_sweeps_over_meet_the_face() {
     let driven = obstacle.over_step(0.0, 1.0);
     for x in [0.0, 0.9, 0.999, 1.0, 1.0 + 1e-12] {
         for depth in [0.0, 1e-9, 0.1, 0.2 - 1e-12] {
-            let at = driven.closest([x, 0.0, depth], 1e-9);
-            assert_eq!((at.normal, at.gap), ([0.0, 0.0, -1.0], -depth), "{x}");
+            let at = driven.closest(Vector3::new(x, 0.0, depth), 1e-9);
+            assert_eq!((at.normal, at.gap), (-Vector3::z(), -depth), "{x}");
         }
     }
     // Beyond the edge, or higher than the face has been, the wall counts: also when the punch is withdrawn.
-    for x in [[1.01, 0.0, 0.1], [0.99, 0.0, 0.3]] {
-        assert_eq!(driven.closest(x, 1e-9).normal, [1.0, 0.0, 0.0]);
+    for x in [Vector3::new(1.01, 0.0, 0.1), Vector3::new(0.99, 0.0, 0.3)] {
+        assert_eq!(driven.closest(x, 1e-9).normal, Vector3::x());
     }
     let back = obstacle.over_step(1.0, 0.0);
-    let at = back.closest([0.99, 0.0, 0.3], 1e-9);
-    assert_eq!((at.normal, at.gap < 0.0), ([1.0, 0.0, 0.0], true));
+    let at = back.closest(Vector3::new(0.99, 0.0, 0.3), 1e-9);
+    assert_eq!((at.normal, at.gap < 0.0), (Vector3::x(), true));
 }
 
 #[test]
 fn centres_have_a_definite_finite_normal() {
     let sphere = Shape::Sphere {
-        center: [1.0, 2.0, 3.0],
+        center: Vector3::new(1.0, 2.0, 3.0),
         radius: 2.0,
     };
     let cylinder = Shape::Cylinder {
-        point: [0.0; 3],
-        axis: [0.0, 0.0, 1.0],
+        point: Vector3::zeros(),
+        axis: Vector3::z(),
         radius: 2.0,
     };
-    for (shape, x) in [(sphere, [1.0, 2.0, 3.0]), (cylinder, [0.0, 0.0, 5.0])] {
+    for (shape, x) in [
+        (sphere, Vector3::new(1.0, 2.0, 3.0)),
+        (cylinder, Vector3::new(0.0, 0.0, 5.0)),
+    ] {
         let obstacle = Obstacle::new(shape, Motion::still()).unwrap();
         let at = obstacle.over_step(0.0, 0.0).closest(x, 0.0);
         assert_eq!(at.gap, -2.0);
-        assert!((norm(at.normal) - 1.0).abs() < 1e-15);
+        assert!((at.normal.norm() - 1.0).abs() < 1e-15);
     }
 }
 
 #[test]
 fn obstacles_that_leave_the_plane_say_why() {
-    let point = [0.5, 0.5, 0.0];
-    let z = [0.0, 0.0, 1.0];
+    let point = Vector3::new(0.5, 0.5, 0.0);
+    let z = Vector3::z();
     let plane = |normal| Shape::Plane { point, normal };
     let disc = |height| Shape::Sphere {
-        center: [1.0, 2.0, height],
+        center: Vector3::new(1.0, 2.0, height),
         radius: 1.0,
     };
     let cylinder = |axis| Shape::Cylinder {
-        point: [0.0, 0.0, 7.0],
+        point: Vector3::new(0.0, 0.0, 7.0),
         axis,
         radius: 1.0,
     };
@@ -325,22 +328,28 @@ fn obstacles_that_leave_the_plane_say_why() {
     let reason = |shape, motion| Obstacle::new(shape, motion).unwrap().out_of_plane();
     let still = Motion::still;
     let accepted = [
-        plane([3.0, 4.0, 0.0]),
+        plane(Vector3::new(3.0, 4.0, 0.0)),
         disc(0.0),
-        cylinder([0.0, 0.0, -2.0]),
-        wedge(point, [1.0, 2.0, 0.0]),
-        strip(point, [1.0, 2.0, 0.0]),
+        cylinder(Vector3::new(0.0, 0.0, -2.0)),
+        wedge(point, Vector3::new(1.0, 2.0, 0.0)),
+        strip(point, Vector3::new(1.0, 2.0, 0.0)),
     ];
     let refused = [
         (plane(z), "plane's normal"),
-        (plane([1.0, 0.0, 1e-9]), "plane's normal"),
+        (plane(Vector3::new(1.0, 0.0, 1e-9)), "plane's normal"),
         (disc(0.1), "sphere's center"),
-        (cylinder([0.0, 1.0, 0.0]), "cylinder's axis"),
-        (cylinder([0.0, 0.1, 1.0]), "cylinder's axis"),
+        (cylinder(Vector3::y()), "cylinder's axis"),
+        (cylinder(Vector3::new(0.0, 0.1, 1.0)), "cylinder's axis"),
         (wedge(point, z), "cone's axis"),
-        (wedge([0.0, 0.0, 0.1], [1.0, 0.0, 0.0]), "cone's apex"),
+        (
+            wedge(Vector3::new(0.0, 0.0, 0.1), Vector3::x()),
+            "cone's apex",
+        ),
         (strip(point, z), "punch's axis"),
-        (strip([0.0, 0.0, 0.1], [1.0, 0.0, 0.0]), "punch's center"),
+        (
+            strip(Vector3::new(0.0, 0.0, 0.1), Vector3::x()),
+            "punch's center",
+        ),
     ];
     for shape in accepted {
         assert_eq!(reason(shape, still()), None);
@@ -357,10 +366,10 @@ fn obstacles_that_leave_the_plane_say_why() {
         ..still()
     };
     let lift = |z| Motion::translation([1.0, 2.0, z].map(Table::constant));
-    for motion in [turn(z), turn([0.0, 0.0, -3.0]), lift(0.0)] {
+    for motion in [turn(z), turn(Vector3::new(0.0, 0.0, -3.0)), lift(0.0)] {
         assert_eq!(reason(disc(0.0), motion), None);
     }
-    for motion in [turn([0.0, 1.0, 1.0]), lift(0.1)] {
+    for motion in [turn(Vector3::new(0.0, 1.0, 1.0)), lift(0.1)] {
         assert!(reason(disc(0.0), motion).unwrap().contains("motion"));
     }
 }

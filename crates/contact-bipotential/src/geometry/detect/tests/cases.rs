@@ -23,7 +23,7 @@ fn flush_sides_are_in_contact_and_overhanging_nodes_are_not() {
                 assert_eq!(map.len(), expected, "overhang {overhang}");
                 for c in &map.contacts {
                     assert!((c.gap - z).abs() < 1e-15, "{}", c.gap);
-                    assert_eq!(c.normal(), [0.0, 0.0, 1.0]);
+                    assert_eq!(c.normal(), Vector3::z());
                 }
             }
             // Beyond the tolerance nothing holds a node, above or below the level of the surface.
@@ -59,7 +59,7 @@ fn a_slab_on_a_ridge_keeps_its_rim_nodes() {
     };
     let directions = [0.25, 0.31, 0.5, 0.625, 0.7];
     for height in [-0.01, 0.0, 0.01] {
-        let slaves: Vec<Vec3> = directions
+        let slaves: Vec<Point3> = directions
             .iter()
             .flat_map(|u| {
                 [0.0, 1.0].map(|v| {
@@ -142,7 +142,7 @@ fn the_box_test_ends_a_search_without_neighbours() {
 
 #[test]
 fn order_and_bits_do_not_depend_on_threads() {
-    let slaves: Vec<Vec3> = (0..1000)
+    let slaves: Vec<Point3> = (0..1000)
         .map(|k| {
             let k = f64::from(k);
             [
@@ -182,8 +182,8 @@ fn order_and_bits_do_not_depend_on_threads() {
 fn obstacles_move_and_hold_at_any_depth() {
     let ramp = |v| Table::new(vec![(0.0, 0.0), (1.0, v)], Interpolation::Linear).unwrap();
     let plane = Shape::Plane {
-        point: [0.0; 3],
-        normal: [0.0, 0.0, 2.0],
+        point: Vector3::zeros(),
+        normal: Vector3::new(0.0, 0.0, 2.0),
     };
     let conveyor = Motion::translation([ramp(3.0), ramp(0.0), ramp(1.0)]);
     let obstacle = Obstacle::new(plane, conveyor).unwrap();
@@ -205,8 +205,8 @@ fn obstacles_move_and_hold_at_any_depth() {
         .collect();
     assert_eq!(found, [(2, 0, -50.5), (0, 1, -0.25)]);
     for c in &map.contacts {
-        assert_eq!(c.frame, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
-        assert!(norm(sub(c.obstacle_motion, [0.75, 0.0, 0.25])) < 1e-15);
+        assert_eq!(c.frame, Matrix3::identity());
+        assert!((c.obstacle_motion - Vector3::new(0.75, 0.0, 0.25)).norm() < 1e-15);
         assert_eq!((c.facet, c.stencil.nodes()), (None, &[c.slave][..]));
     }
     // Two nodes at rest on a belt that runs along +x slip along -x.
@@ -223,8 +223,8 @@ fn a_turning_plane_keeps_its_frame() {
         ..Motion::still()
     };
     let plane = Shape::Plane {
-        point: [0.0; 3],
-        normal: [0.0, 0.0, 1.0],
+        point: Vector3::zeros(),
+        normal: Vector3::z(),
     };
     let obstacle = Obstacle::new(plane, motion).unwrap();
     let interface = Interface::new("disc", vec![0], vec![1.0], Master::Obstacle(obstacle), 0.5);
@@ -232,19 +232,19 @@ fn a_turning_plane_keeps_its_frame() {
     let mut detector = Detector::new(vec![interface], &positions, 3, Cone::Spatial).unwrap();
     for t in [0.1, 0.5, 0.9] {
         let c = detector.detect(&positions, t - 0.05, t).contacts[0];
-        assert_eq!(c.frame, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
+        assert_eq!(c.frame, Matrix3::identity());
         // The chord of an arc of 0.1 rad that ends at (1, 0).
-        assert!((norm(c.obstacle_motion) - 2.0 * 0.05f64.sin()).abs() < 1e-15);
+        assert!((c.obstacle_motion.norm() - 2.0 * 0.05f64.sin()).abs() < 1e-15);
         assert!(c.obstacle_motion[1] > 0.0 && c.obstacle_motion[0] > 0.0);
-        assert!(dot(c.obstacle_motion, c.normal()).abs() < 1e-16);
+        assert!(c.obstacle_motion.dot(&c.normal()).abs() < 1e-16);
     }
 }
 
 #[test]
 fn plane_problems_have_two_rows() {
     let floor = Shape::Plane {
-        point: [0.0; 3],
-        normal: [0.0, 1.0, 0.0],
+        point: Vector3::zeros(),
+        normal: Vector3::y(),
     };
     let obstacle = Obstacle::new(floor, Motion::still()).unwrap();
     let interface = Interface::new("floor", vec![1], vec![1.0], Master::Obstacle(obstacle), 0.5);
@@ -329,7 +329,7 @@ fn the_gap_does_not_jump_where_the_closest_point_crosses_a_valley() {
                 last.gap,
                 c.gap
             );
-            leaps += usize::from(norm(sub(c.normal(), last.normal())) > 100.0 * step);
+            leaps += usize::from((c.normal() - last.normal()).norm() > 100.0 * step);
         }
         before = Some(c);
     }

@@ -74,28 +74,28 @@ impl Chain {
         self.detector(reach).detect(&self.positions, 0.0, 1.0)
     }
 
-    fn at(&self, node: u32) -> Vec3 {
-        node_vector(&self.positions, 2, node)
+    fn at(&self, node: u32) -> Vector3<f64> {
+        at_node(&self.positions, 2, node)
     }
 
-    fn ends(&self, edge: usize) -> [Vec3; 2] {
+    fn ends(&self, edge: usize) -> [Vector3<f64>; 2] {
         let [a, b, ..] = self.edges[edge].nodes;
         [self.at(a), self.at(b)]
     }
 
-    fn move_slave(&mut self, x: Vec3) {
+    fn move_slave(&mut self, x: Vector3<f64>) {
         let start = 2 * self.slave()[0] as usize;
-        self.positions[start..start + 2].copy_from_slice(&x[..2]);
+        self.positions[start..start + 2].copy_from_slice(&x.as_slice()[..2]);
     }
 
     /// Closest edge, parameter on it and distance, by Pythagoras.
-    fn brute_force(&self, x: Vec3) -> (usize, f64, f64) {
+    fn brute_force(&self, x: Vector3<f64>) -> (usize, f64, f64) {
         let mut best = (0, 0.0, f64::INFINITY);
         for k in 0..self.edges.len() {
             let [a, b] = self.ends(k);
-            let (la, lb, l) = (norm(sub(x, a)), norm(sub(x, b)), norm(sub(b, a)));
+            let (la, lb, l) = ((x - a).norm(), (x - b).norm(), (b - a).norm());
             let t = ((l * l + la * la - lb * lb) / (2.0 * l * l)).clamp(0.0, 1.0);
-            let d = norm(sub(x, axpy(a, t, sub(b, a))));
+            let d = (x - (a + t * (b - a))).norm();
             if d < best.2 {
                 best = (k, t, d);
             }
@@ -104,7 +104,7 @@ impl Chain {
     }
 
     /// Even-odd rule along +x.
-    fn is_inside(&self, x: Vec3) -> bool {
+    fn is_inside(&self, x: Vector3<f64>) -> bool {
         let crosses = |k: &usize| {
             let [a, b] = self.ends(*k);
             (a[1] > x[1]) != (b[1] > x[1])
@@ -114,7 +114,7 @@ impl Chain {
     }
 
     /// Mean of the normals of the edges at both ends of an edge.
-    fn end_normals(&self, edge: usize) -> [Vec3; 2] {
+    fn end_normals(&self, edge: usize) -> [Vector3<f64>; 2] {
         let outward = |k: usize| facet_normal(&self.ends(k), [0.5, 0.0]).unwrap();
         self.edges[edge]
             .nodes()
@@ -122,7 +122,7 @@ impl Chain {
             .fold(Vec::new(), |mut all, node| {
                 let sum = (0..self.edges.len())
                     .filter(|k| self.edges[*k].nodes().contains(node))
-                    .fold([0.0; 3], |sum, k| add(sum, outward(k)));
+                    .fold(Vector3::zeros(), |sum, k| sum + outward(k));
                 all.push(unit(sum).unwrap());
                 all
             })[..]
@@ -168,7 +168,11 @@ fn numbers(n: usize) -> impl Strategy<Value = Vec<f64>> {
 
 fn moved(positions: &mut [f64], motion: &Motion) {
     for x in positions.chunks_exact_mut(2) {
-        x.copy_from_slice(&motion.position([x[0], x[1], 0.0].into(), 0.0).as_slice()[..2]);
+        x.copy_from_slice(
+            &motion
+                .position(Vector3::new(x[0], x[1], 0.0), 0.0)
+                .as_slice()[..2],
+        );
     }
 }
 
@@ -210,15 +214,16 @@ proptest! {
             prop_assert_eq!(c.gap < 0.0, chain.is_inside(x));
             // Point and normal, where no other edge is equally close.
             let [a, b] = chain.ends(edge);
-            let at = axpy(a, t, sub(b, a));
-            let master = c.stencil.iter().skip(1).fold([0.0; 3], |s, (n, w)| axpy(s, -w, chain.at(n)));
-            prop_assert!(norm(sub(master, at)) < 1e-7 || c.facet != Some(chain.number[edge] as u32));
+            let at = a + t * (b - a);
+            let master = c.stencil.iter().skip(1).fold(Vector3::zeros(), |s, (n, w)| s - w * chain.at(n));
+            prop_assert!((master - at).norm() < 1e-7 || c.facet != Some(chain.number[edge] as u32));
             let [na, nb] = chain.end_normals(edge);
-            let normal = unit(axpy(na, t, sub(nb, na))).unwrap();
-            prop_assert!(norm(sub(c.normal(), normal)) < 1e-6 || c.facet != Some(chain.number[edge] as u32));
+            let normal = unit(na + t * (nb - na)).unwrap();
+            prop_assert!((c.normal() - normal).norm() < 1e-6 || c.facet != Some(chain.number[edge] as u32));
             prop_assert!(c.stencil.weights().iter().sum::<f64>().abs() < 1e-15);
-            prop_assert_eq!(c.frame[0], [c.frame[2][1], -c.frame[2][0], 0.0]);
-            prop_assert_eq!(c.frame[2][2], 0.0);
+            let n = c.normal();
+            prop_assert_eq!(c.frame.column(0), Vector3::new(n[1], -n[0], 0.0));
+            prop_assert_eq!(n[2], 0.0);
             // The lower of two facets that share the closest vertex.
             let touching = c.stencil.nodes();
             if touching.len() == 2 {
@@ -264,28 +269,28 @@ proptest! {
     ) {
         let mut chain = Chain::new(&points, true, &[[0.0; 2]], &shuffle);
         let mut detector = chain.detector(0.5);
-        let mut before: Option<(Vec3, Contact)> = None;
+        let mut before: Option<(Vector3<f64>, Contact)> = None;
         let mut facets = Vec::new();
         for edge in (0..points.len()).chain([0]) {
             let ([a, b], [na, nb]) = (chain.ends(edge), chain.end_normals(edge));
             // The direction of a blend of two unit vectors turns at most this fast.
-            let rate = norm(sub(nb, na)) / (0.5 * (1.0 + dot(na, nb))).sqrt();
+            let rate = (nb - na).norm() / (0.5 * (1.0 + na.dot(&nb))).sqrt();
             let steps = 100;
             for k in 0..=steps {
                 let t = f64::from(k) / f64::from(steps);
-                let n = unit(axpy(na, t, sub(nb, na))).unwrap();
-                let x = axpy(axpy(a, t, sub(b, a)), height, n);
+                let n = unit(na + t * (nb - na)).unwrap();
+                let x = a + t * (b - a) + height * n;
                 chain.move_slave(x);
                 let map = detector.detect(&chain.positions, 0.0, 1.0);
                 prop_assert_eq!(map.len(), 1);
                 let c = map.contacts[0];
                 prop_assert!(height != 0.0 || c.gap.abs() < 1e-15);
                 if let Some((last, from)) = before {
-                    prop_assert!((c.gap - from.gap).abs() <= norm(sub(x, last)) + 1e-15);
+                    prop_assert!((c.gap - from.gap).abs() <= (x - last).norm() + 1e-15);
                     if height == 0.0 {
-                        let turn = norm(sub(c.normal(), from.normal()));
+                        let turn = (c.normal() - from.normal()).norm();
                         prop_assert!(turn <= 1.0001 * rate / f64::from(steps) + 1e-13, "{turn}");
-                        prop_assert!((norm(sub(c.frame[0], from.frame[0])) - turn).abs() < 1e-15);
+                        prop_assert!(((c.frame.column(0) - from.frame.column(0)).norm() - turn).abs() < 1e-15);
                     }
                 }
                 facets.extend(c.facet);
@@ -303,8 +308,8 @@ proptest! {
         u in numbers(60),
     ) {
         let mut chain = Chain::new(&points, true, &slaves, &[]);
-        let motion = turned([0.0, 0.0, 1.0], angle, [shift[0], shift[1], 0.0]);
-        let turn = turned([0.0, 0.0, 1.0], angle, [0.0; 3]);
+        let motion = turned(Vector3::z(), angle, Vector3::new(shift[0], shift[1], 0.0));
+        let turn = turned(Vector3::z(), angle, Vector3::zeros());
         let mut detector = chain.detector(0.5);
         let before = detector.detect(&chain.positions, 0.0, 1.0);
         moved(&mut chain.positions, &motion);
@@ -313,7 +318,7 @@ proptest! {
         let u = &u[..chain.positions.len()];
         let mut v = u.to_vec();
         for x in v.chunks_exact_mut(2) {
-            x.copy_from_slice(&turn.rotate([x[0], x[1], 0.0].into(), 0.0).as_slice()[..2]);
+            x.copy_from_slice(&turn.rotate(Vector3::new(x[0], x[1], 0.0), 0.0).as_slice()[..2]);
         }
         let (mut x, mut y) = (vec![0.0; before.row_count()], vec![0.0; after.row_count()]);
         before.apply(u, &mut x);
@@ -322,7 +327,7 @@ proptest! {
             prop_assert!((a.gap - b.gap).abs() < 1e-14);
             if a.facet == b.facet {
                 for i in 0..3 {
-                    prop_assert!(norm(sub(motion.rotate(a.frame[i].into(), 0.0).into(), b.frame[i])) < 1e-12);
+                    prop_assert!((motion.rotate(a.frame.column(i).into(), 0.0) - b.frame.column(i)).norm() < 1e-12);
                 }
                 prop_assert!((x[2 * k] - y[2 * k]).abs() + (x[2 * k + 1] - y[2 * k + 1]).abs() < 1e-12);
             }
@@ -394,7 +399,7 @@ proptest! {
     ) {
         let points = [0, 1, 2, 3, 4, 5].map(|k| [1.0 - 0.2 * f64::from(k), 0.0]);
         let mut chain = Chain::new(&points, false, &[x], &[]);
-        moved(&mut chain.positions, &turned([0.0, 0.0, 1.0], angle, [0.3, -0.2, 0.0]));
+        moved(&mut chain.positions, &turned(Vector3::z(), angle, Vector3::new(0.3, -0.2, 0.0)));
         let mut detector = chain.detector(0.3);
         let map = detector.detect(&chain.positions, 0.0, 1.0);
         prop_assert_eq!(map.len(), 1);

@@ -8,27 +8,27 @@ proptest! {
         x in [-3.0f64..3.0, -3.0f64..3.0], p in [-1.0f64..1.0, -1.0f64..1.0], heading in -3.0f64..3.0,
         radius in 0.1f64..2.0, angle in -3.0f64..3.0, shift in [-1.0f64..1.0, -1.0f64..1.0], depth in -5.0f64..5.0,
     ) {
-        let motion = turned([0.0, 0.0, 1.0], angle, [shift[0], shift[1], 0.0]);
-        let at = motion.position([p[0], p[1], 0.0].into(), 0.0);
+        let motion = turned(Vector3::z(), angle, Vector3::new(shift[0], shift[1], 0.0));
+        let at = motion.position(Vector3::new(p[0], p[1], 0.0), 0.0);
         let (sin, cos) = heading.sin_cos();
         let shapes = [
-            Shape::Plane { point: [p[0], p[1], depth], normal: [cos, sin, 0.0] },
-            Shape::Sphere { center: [p[0], p[1], 0.0], radius },
-            Shape::Cylinder { point: [p[0], p[1], depth], axis: [0.0, 0.0, depth], radius },
+            Shape::Plane { point: Vector3::new(p[0], p[1], depth), normal: Vector3::new(cos, sin, 0.0) },
+            Shape::Sphere { center: Vector3::new(p[0], p[1], 0.0), radius },
+            Shape::Cylinder { point: Vector3::new(p[0], p[1], depth), axis: Vector3::new(0.0, 0.0, depth), radius },
         ];
-        let arm = sub([x[0], x[1], 0.0], at.into());
+        let arm = Vector3::new(x[0], x[1], 0.0) - at;
         let (sin, cos) = (heading + angle).sin_cos();
-        let level = (cos * arm[0] + sin * arm[1], [cos, sin, 0.0]);
-        let round = (norm(arm) - radius, unit(arm).unwrap());
+        let level = (cos * arm[0] + sin * arm[1], Vector3::new(cos, sin, 0.0));
+        let round = (arm.norm() - radius, unit(arm).unwrap());
         for (shape, (gap, normal)) in shapes.into_iter().zip([level, round, round]) {
             let master = Master::Obstacle(Obstacle::new(shape, motion.clone()).unwrap());
             let interface = Interface::new("obstacle", vec![0], vec![1.0], master, 10.0);
             let map = Detector::new(vec![interface], &x, 2, Cone::Planar).unwrap().detect(&x, 0.0, 1.0);
             let c = map.contacts[0];
             prop_assert!((c.gap - gap).abs() < 1e-14, "{shape:?} {} {gap}", c.gap);
-            prop_assert!(norm(sub(c.normal(), normal)) < 1e-12);
+            prop_assert!((c.normal() - normal).norm() < 1e-12);
             prop_assert_eq!(c.normal()[2], 0.0);
-            prop_assert_eq!(c.frame[0], [c.normal()[1], -c.normal()[0], 0.0]);
+            prop_assert_eq!(c.frame.column(0), Vector3::new(c.normal()[1], -c.normal()[0], 0.0));
             prop_assert_eq!(c.obstacle_motion[2], 0.0);
         }
     }
@@ -55,10 +55,8 @@ fn flush_ends_are_in_contact_and_overhanging_nodes_are_not() {
             assert_eq!(map.len(), expected, "overhang {overhang}");
             for c in &map.contacts {
                 assert!((c.gap - y).abs() < 1e-15, "{}", c.gap);
-                assert_eq!(
-                    c.frame,
-                    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
-                );
+                let axes = [Vector3::x(), -Vector3::z(), Vector3::y()];
+                assert_eq!(c.frame, Matrix3::from_columns(&axes));
             }
         }
     }
@@ -108,12 +106,12 @@ fn ties_depths_and_counters_of_a_chain_by_hand() {
 #[test]
 fn a_node_at_a_discs_centre_is_pushed_within_the_plane() {
     let disc = Shape::Sphere {
-        center: [0.0; 3],
+        center: Vector3::zeros(),
         radius: 1.0,
     };
     let rod = Shape::Cylinder {
-        point: [0.0; 3],
-        axis: [0.0, 0.0, 1.0],
+        point: Vector3::zeros(),
+        axis: Vector3::z(),
         radius: 1.0,
     };
     for shape in [disc, rod] {
@@ -125,7 +123,7 @@ fn a_node_at_a_discs_centre_is_pushed_within_the_plane() {
             .detect(&x, 0.0, 1.0)
             .contacts[0];
         assert_eq!((c.gap, c.normal()[2]), (-1.0, 0.0));
-        assert_eq!(norm(c.normal()), 1.0);
+        assert_eq!(c.normal().norm(), 1.0);
     }
 }
 
@@ -143,8 +141,8 @@ fn masters_that_do_not_fit_the_plane_are_refused() {
     assert!(refused(edges(), 3).contains("has edges"));
     assert!(refused(faces(), 2).contains("has faces"));
     let floor = Shape::Plane {
-        point: [0.0; 3],
-        normal: [0.0, 0.0, 1.0],
+        point: Vector3::zeros(),
+        normal: Vector3::z(),
     };
     let obstacle = Obstacle::new(floor, Motion::still()).unwrap();
     assert!(refused(Master::Obstacle(obstacle.clone()), 2).contains("plane's normal"));
@@ -177,11 +175,11 @@ fn a_dome_on_the_axis_of_symmetry_holds_what_is_above_its_pole() {
         assert!((c.normal()[1] - 1.0).abs() < 1e-4);
     }
     for c in &map.contacts[..2] {
-        assert_eq!(c.normal(), [0.0, 1.0, 0.0]);
+        assert_eq!(c.normal(), Vector3::y());
     }
     // The other end is a rim as before.
     let mut beside = chain.clone();
-    beside.move_slave([1.0, -1.05, 0.0]);
+    beside.move_slave(Vector3::new(1.0, -1.05, 0.0));
     let mut detector = beside.detector(0.1).axisymmetric(&beside.positions);
     assert_eq!(detector.detect(&beside.positions, 0.0, 1.0).len(), 2);
 }
