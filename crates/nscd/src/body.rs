@@ -1,21 +1,32 @@
 //! The linear system of one body: equations, matrix, factor and condensed surface.
 
 use contact_bipotential::CompliancePart;
-use fe_core::{ElementWorkspace, MassMatrix, Solid, SymmetricPattern};
+use fe_core::{Solid, SymmetricPattern, node_adjacency};
 
-use crate::brace::Brace;
+use crate::contact_stiffness::ContactStiffness;
+use crate::cost::COSTS;
+use crate::elements::Elements;
 use crate::error::{NscdError, StepFailure};
+use crate::flat::norm;
+use crate::floating::is_floating;
 use crate::linear::{Condensed, Factor, Indefinite, LowerPattern};
+use crate::model::Model;
 use crate::ordering::{Graph, elimination_order};
 use crate::report::Counters;
-use crate::scheme::Weights;
+use crate::scheme::{Inertia, Weights};
 
-/// Relative residual of a linear solve that needs no refinement.
+/// Relative residual of a linear solve that needs no refinement \[-\].
 const GOOD_SOLVE: f64 = 1e-10;
-/// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown.
-const FLOATING: f64 = 1e-4;
-/// Relative residual of a linear solve after refinement that is still believed.
+/// Relative residual of a linear solve after refinement that is still believed \[-\].
 const LAST_SOLVE: f64 = 1e-6;
+/// Solves of one right hand side, the refinements included.
+const SOLVES: usize = 3;
+/// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown \[-\].
+const FLOATING: f64 = 1e-4;
+/// Part of the diagonal that an indefinite matrix is first shifted by \[-\]; ten times as much each time, up to the last.
+const FIRST_SHIFT: f64 = 1e-4;
+/// A matrix that is indefinite after a shift beyond this part of its diagonal is given up \[-\].
+const LAST_SHIFT: f64 = 10.0;
 
 /// One connected body and its factorized tangent, which may be older than the state: the
 /// residual is always exact, so an old tangent costs iterations and never accuracy.
@@ -38,8 +49,8 @@ pub(crate) struct BodySystem {
     /// Weights of the factor in use; `None` when there is none.
     factored: Option<Weights>,
     contraction: Option<f64>,
-    /// Springs in the factor in use; the matrix without them was not definite.
-    braces: Vec<Brace>,
+    /// Stiffness of contacts in the factor in use; the matrix without it was not definite.
+    contacts: Vec<ContactStiffness>,
     /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m], without what was added to make it definite:
     /// round-off does not grow with that.
     diagonals: Vec<[f64; 2]>,
@@ -51,15 +62,28 @@ pub(crate) struct BodySystem {
     solution: Vec<f64>,
 }
 
-/// What the matrix is made of besides the element tangents.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct MatrixParts<'a> {
-    pub(crate) mass: &'a MassMatrix,
-    pub(crate) mass_damping: f64,
-    pub(crate) initial_stiffness: Option<(&'a ElementWorkspace, f64)>,
-}
-
 impl BodySystem {
+    /// The bodies of a model that have unknowns; one that is driven as a whole has no system to solve.
+    pub(crate) fn all(model: &Model, fixed: &[bool]) -> Result<Vec<Self>, NscdError> {
+        let (offsets, neighbours) = node_adjacency(&model.solid);
+        let graph = Graph {
+            offsets: &offsets,
+            neighbours: &neighbours,
+        };
+        let (dim, candidate) = (model.solid.dim(), model.candidates());
+        let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
+        let nodes = model.solid.bodies().iter().enumerate();
+        nodes
+            .filter(|(_, nodes)| nodes.iter().any(unknown))
+            .map(|(index, nodes)| {
+                let mut body = Self::new(&model.solid, graph, index, fixed, &candidate)?;
+                let massless = model.scheme.inertia == Inertia::QuasiStatic;
+                body.floating = massless && is_floating(model, nodes, fixed);
+                Ok(body)
+            })
+            .collect()
+    }
+
     /// Orders and analyses the body `index`; `candidate` tells the nodes that may touch.
     pub(crate) fn new(
         solid: &Solid,
@@ -105,7 +129,7 @@ impl BodySystem {
             surface: None,
             factored: None,
             contraction: None,
-            braces: Vec::new(),
+            contacts: Vec::new(),
             diagonals: vec![[0.0; 2]; n],
             softest: vec![f64::INFINITY; n],
             epoch: 0,
@@ -145,15 +169,15 @@ impl BodySystem {
         self.factored == Some(weights)
     }
 
-    /// Estimated seconds of a factorization with condensation on a usual core.
+    /// Estimated seconds of a factorization with condensation.
     pub(crate) fn factor_cost(&self) -> f64 {
-        let m = (self.dofs.len() - self.first_candidate) as f64;
-        (self.factor.flops + m.powi(3)) / 8e9 + self.values.len() as f64 * 4e-9
+        let candidates = self.dofs.len() - self.first_candidate;
+        COSTS.factorization(self.factor.flops, candidates, self.values.len())
     }
 
     /// Estimated seconds of one forward and backward substitution.
     pub(crate) fn solve_cost(&self) -> f64 {
-        self.factor.fill() as f64 * 2.5e-9 + self.values.len() as f64 * 1e-9
+        COSTS.substitution(self.factor.fill(), self.values.len())
     }
 
     /// Least stiffness part of each diagonal entry so far [N/m], infinite before the first factorization.
@@ -182,15 +206,14 @@ impl BodySystem {
             .collect()
     }
 
-    /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made
-    /// definite by `braces`, those of other bodies are ignored, and if that does not suffice by adding to its diagonal, as
-    /// little as needed in powers of ten. It is counted.
+    /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made definite by the stiffness of
+    /// `contacts`, those of other bodies are ignored, and if that does not suffice by adding to its diagonal, as little as needed
+    /// in powers of ten. It is counted.
     pub(crate) fn refactor(
         &mut self,
-        work: &ElementWorkspace,
-        parts: MatrixParts<'_>,
+        elements: &Elements<'_>,
         weights: Weights,
-        braces: &[Brace],
+        contacts: &[ContactStiffness],
         counters: &mut Counters,
     ) -> Result<(), StepFailure> {
         self.factored = None;
@@ -198,33 +221,36 @@ impl BodySystem {
         self.contraction = None;
         self.condensed = None;
         self.surface = None;
+        self.assemble(elements, weights);
+        if self.floating {
+            self.stiffen(FLOATING);
+        }
+        self.factorize_shifted(contacts, counters)?;
+        self.factored = Some(weights);
+        Ok(())
+    }
+
+    fn assemble(&mut self, elements: &Elements<'_>, weights: Weights) {
+        let model = elements.model();
         self.pattern
-            .gather_tangent(work, weights.stiffness, &mut self.values);
+            .gather_tangent(elements.tangents(), weights.stiffness, &mut self.values);
         let elastic = self.diagonal();
-        if let Some((initial, factor)) = parts.initial_stiffness {
+        if let Some((initial, factor)) = elements.damping_stiffness() {
             let mut damping = vec![0.0; self.values.len()];
             self.pattern
                 .gather_tangent(initial, weights.damping * factor, &mut damping);
-            self.values
-                .iter_mut()
-                .zip(&damping)
-                .for_each(|(a, d)| *a += d);
+            let entries = self.values.iter_mut().zip(&damping);
+            entries.for_each(|(a, d)| *a += d);
         }
-        let mass = weights.mass + weights.damping * parts.mass_damping;
+        let mass = weights.mass + weights.damping * model.damping.mass;
         if mass != 0.0 {
-            self.pattern.add_mass(parts.mass, mass, &mut self.values);
+            self.pattern.add_mass(&model.mass, mass, &mut self.values);
         }
         for (softest, now) in self.softest.iter_mut().zip(&elastic) {
             *softest = softest.min(now.abs());
         }
         let both = self.diagonal().into_iter().zip(elastic);
         self.diagonals = both.map(|(whole, elastic)| [whole, elastic]).collect();
-        if self.floating {
-            self.stiffen(FLOATING);
-        }
-        self.factorize_shifted(braces, counters)?;
-        self.factored = Some(weights);
-        Ok(())
     }
 
     /// Adds a part of the largest diagonal entry to the whole diagonal. The residual stays exact, so a body that
@@ -246,13 +272,13 @@ impl BodySystem {
         }
     }
 
-    /// Springs in the factor in use.
-    pub(crate) fn braces(&self) -> &[Brace] {
-        &self.braces
+    /// Stiffness of contacts in the factor in use.
+    pub(crate) fn contact_stiffness(&self) -> &[ContactStiffness] {
+        &self.contacts
     }
 
-    /// Puts those of the springs into the matrix that belong to the body.
-    fn brace(&mut self, braces: &[Brace]) {
+    /// Puts the stiffness of those contacts into the matrix that belong to the body.
+    fn augment(&mut self, contacts: &[ContactStiffness]) {
         let count = self.dofs.iter().map(|&d| d as usize + 1).max();
         let mut equation = vec![usize::MAX; count.unwrap_or(0) + self.dim];
         for (k, &d) in self.dofs.iter().enumerate() {
@@ -260,12 +286,12 @@ impl BodySystem {
         }
         let (pointers, rows) = (self.pattern.column_pointers(), self.pattern.row_indices());
         let known = |d: usize| equation.get(d).copied().filter(|&e| e != usize::MAX);
-        for brace in braces {
-            let mut brace = *brace;
+        for contact in contacts {
+            let mut contact = *contact;
             let diagonals = &self.diagonals;
             let diagonal = |d: usize| known(d).map_or(0.0, |e| diagonals[e][0]);
             let values = &mut self.values;
-            brace.enter(self.dim, diagonal, |i, j, value| {
+            contact.enter(self.dim, diagonal, |i, j, value| {
                 let (Some(i), Some(j)) = (known(i), known(j)) else {
                     return;
                 };
@@ -274,30 +300,30 @@ impl BodySystem {
                     values[column.start + k] += value;
                 }
             });
-            self.braces.push(brace);
+            self.contacts.push(contact);
         }
     }
 
     fn factorize_shifted(
         &mut self,
-        braces: &[Brace],
+        contacts: &[ContactStiffness],
         counters: &mut Counters,
     ) -> Result<(), StepFailure> {
-        self.braces.clear();
+        self.contacts.clear();
         let Err(_) = self.factorize(counters) else {
             return Ok(());
         };
         counters.indefinite_tangents += 1;
-        if !braces.is_empty() {
-            self.brace(braces);
+        if !contacts.is_empty() {
+            self.augment(contacts);
             if self.factorize(counters).is_ok() {
                 return Ok(());
             }
         }
-        let mut shift = 1e-4;
+        let mut shift = FIRST_SHIFT;
         loop {
             // Under a contact small elements buckle first, and what the largest one needs would stall them.
-            if braces.is_empty() {
+            if contacts.is_empty() {
                 self.stiffen(shift);
             } else {
                 self.stiffen_each(shift);
@@ -305,8 +331,8 @@ impl BodySystem {
             let Err(bad) = self.factorize(counters) else {
                 return Ok(());
             };
-            if shift > 10.0 {
-                let node = self.dofs[bad.equation] as usize;
+            if shift > LAST_SHIFT {
+                let node = self.dofs[bad.equation] as usize / self.dim;
                 return Err(StepFailure::Indefinite {
                     body: self.index,
                     node,
@@ -403,11 +429,11 @@ impl BodySystem {
             rows: self.pattern.row_indices(),
         };
         let mut worst = f64::INFINITY;
-        for attempt in 0..3 {
+        for attempt in 1..=SOLVES {
             let mut left = self.rhs.clone();
             lower.subtract_product(&self.values, &self.solution, &mut left);
             let residual = norm(&left) / scale;
-            if residual <= GOOD_SOLVE || (attempt == 2 && residual <= LAST_SOLVE) {
+            if residual <= GOOD_SOLVE || (attempt == SOLVES && residual <= LAST_SOLVE) {
                 return Ok(());
             }
             worst = residual;
@@ -427,8 +453,4 @@ impl BodySystem {
             residual: worst,
         })
     }
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|v| v * v).sum::<f64>().sqrt()
 }

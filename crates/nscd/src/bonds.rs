@@ -1,24 +1,25 @@
 //! Bonds from step to step: what a slave node remembers, turned with its master's material.
 
 use contact_bipotential::{
-    Bond, BondStep, Contact, ContactKey, ContactMap, Interface, Master, material_frame,
+    Adhesion, Bond, BondStep, Contact, ContactKey, ContactMap, Interface, Master, material_frame,
 };
 use nalgebra::{Matrix3, Vector3};
 
-use crate::contact::{ContactMemory, describe};
 use crate::error::{NscdError, StepFailure};
-use crate::law::{in_frame, state_before};
+use crate::flat::round_off;
+use crate::iterate::Iterate;
+use crate::memory::ContactMemory;
 use crate::model::Model;
 use crate::scheme::ContactLevel;
 use crate::state::{NodeBond, State};
-use crate::stepper::Stepper;
-use crate::trial::{StepFrame, Trial};
+use crate::step_problem::StepProblem;
 
-/// How far an adhesive interface is searched at least, in gaps at which bonds start to break.
+/// How far an adhesive interface is searched at least, in gaps at which bonds start to break \[-\].
 const LEAST_REACH: f64 = 3.0;
-
-/// The round-off of a gap over the size of the positions.
-const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
+/// How far an adhesive interface is searched, in gaps of its bonds that hold: for what they may open in a step \[-\].
+const OPENING: f64 = 2.0;
+/// Least `1 + cos` of the angle between two normals for which there is a shortest way to turn one to the other \[-\].
+const OPPOSITE: f64 = 1e-3;
 
 /// Bonds know gaps and separations, velocity-level contact knows neither.
 pub(crate) fn refuse_velocity_level(model: &Model) -> Result<(), NscdError> {
@@ -38,14 +39,15 @@ pub(crate) fn adhesive_energy(model: &Model, bonds: &[Vec<NodeBond>]) -> f64 {
             return 0.0;
         };
         let each = bonds.iter().zip(&interface.area);
-        each.map(|(bond, area)| bond.in_frame(bond.separation).energy(law, *area))
+        each.map(|(bond, area)| bond.with(bond.separation).energy(law, *area))
             .sum()
     };
     model.interfaces.iter().zip(bonds).map(of_interface).sum()
 }
 
 impl NodeBond {
-    fn in_frame(&self, separation: [f64; 2]) -> Bond {
+    /// The bond with its separation in other axes.
+    fn with(&self, separation: [f64; 2]) -> Bond {
         Bond {
             intensity: self.intensity,
             gap: self.gap,
@@ -55,30 +57,30 @@ impl NodeBond {
 }
 
 /// The bond of every contact of a map over the step; empty where no interface has adhesion.
-pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> Vec<BondStep> {
-    let model = frame.model;
+pub(crate) fn bond_steps(step: &StepProblem<'_>, map: &ContactMap, u: &[f64]) -> Vec<BondStep> {
+    let model = step.model;
     if model.interfaces.iter().all(|i| i.adhesion.is_none()) {
         return Vec::new();
     }
     let positions = model.positions(u);
-    let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let roundoff = round_off(&positions);
     let one = |c: &Contact| {
         let interface = &model.interfaces[c.interface];
         let Some(law) = &interface.adhesion else {
             return BondStep::none();
         };
-        let node = &frame.now.bonds[c.interface][c.slave_index];
+        let node = &step.now.bonds[c.interface][c.slave_index];
         let separation = if node.separation == [0.0; 2] {
             [0.0; 2]
         } else {
-            let axes = stored_axes(frame, c, node, &positions);
+            let axes = stored_axes(step, c, node, &positions);
             turned(node.separation, &axes, &c.frame)
         };
         let area = interface.area[c.slave_index];
         if area == 0.0 {
             return BondStep::none();
         }
-        BondStep::new(law, area, frame.dt, node.in_frame(separation), roundoff)
+        BondStep::new(law, area, step.dt, node.with(separation), roundoff)
     };
     map.contacts.iter().map(one).collect()
 }
@@ -87,16 +89,16 @@ pub(crate) fn bond_steps(frame: &StepFrame<'_>, map: &ContactMap, u: &[f64]) -> 
 /// were the frame of the contact: any other normal to which the separation were turned could lie far from the contact's, and
 /// on the way there and back by another normal a vector turns about both.
 fn stored_axes(
-    frame: &StepFrame<'_>,
+    step: &StepProblem<'_>,
     contact: &Contact,
     node: &NodeBond,
     positions: &[f64],
 ) -> Matrix3<f64> {
-    let interface = &frame.model.interfaces[contact.interface];
-    let dim = frame.model.solid.dim();
+    let interface = &step.model.interfaces[contact.interface];
+    let dim = step.model.solid.dim();
     let axes = |t| material_frame(interface, node.facet, positions, dim, t);
-    let (then, end) = (axes(frame.now.time), axes(frame.end()));
-    let before = state_before(frame.now, contact.key());
+    let (then, end) = (axes(step.now.time), axes(step.end()));
+    let before = step.now.contact(contact.key());
     match (&interface.master, before) {
         (Master::Obstacle(_), Some(before)) => end * then.tr_mul(&before.frame),
         _ => end,
@@ -110,7 +112,7 @@ fn turned(components: [f64; 2], from: &Matrix3<f64>, to: &Matrix3<f64>) -> [f64;
     let axis = from.column(2).cross(&to.column(2));
     let cosine = from.column(2).dot(&to.column(2));
     // Opposite normals have no shortest way; such a pair has nothing to do with the one before.
-    let scale = 1.0 / (1.0 + cosine).max(1e-3);
+    let scale = 1.0 / (1.0 + cosine).max(OPPOSITE);
     let once = axis.cross(&v);
     let twice = axis.cross(&once);
     let turned = to.tr_mul(&(v + once + scale * twice));
@@ -118,30 +120,23 @@ fn turned(components: [f64; 2], from: &Matrix3<f64>, to: &Matrix3<f64>) -> [f64;
 }
 
 /// What every slave node remembers after the step. A pair that the search has lost is a new one when it meets again.
-pub(crate) fn carry_on(
-    frame: &StepFrame<'_>,
-    trial: &Trial,
+pub(crate) fn bonds_after(
+    step: &StepProblem<'_>,
+    iterate: &Iterate,
     positions: &[f64],
 ) -> Vec<Vec<NodeBond>> {
-    let model = frame.model;
+    let (model, dim) = (step.model, step.model.solid.dim());
     let mut bonds: Vec<Vec<NodeBond>> = no_bonds(model);
-    let cone = trial.map.cone().dim();
-    let ends = trial.bonds.iter().zip(trial.x.chunks_exact(cone));
-    for (c, (step, x)) in trial.map.contacts.iter().zip(ends) {
+    let contacts = iterate.map.contacts.iter().zip(&iterate.bonds);
+    for (k, (c, bond)) in contacts.enumerate() {
         let interface = &model.interfaces[c.interface];
         if interface.adhesion.is_none() || interface.area[c.slave_index] == 0.0 {
             continue;
         }
-        let end = step.finish(&in_frame(x));
+        let end = bond.finish(&iterate.local(k));
         let axes = match interface.master {
             Master::Obstacle(_) => c.frame,
-            Master::Surface(_) => material_frame(
-                interface,
-                c.facet,
-                positions,
-                model.solid.dim(),
-                frame.end(),
-            ),
+            Master::Surface(_) => material_frame(interface, c.facet, positions, dim, step.end()),
         };
         bonds[c.interface][c.slave_index] = NodeBond {
             intensity: end.intensity,
@@ -163,83 +158,79 @@ fn no_bonds(model: &Model) -> Vec<Vec<NodeBond>> {
         .collect()
 }
 
-impl Stepper<'_> {
-    /// Lets the search reach as far as bonds hold: twice their gaps, for what they may open in this step.
-    pub(crate) fn reach_for_bonds(&mut self, now: &State) {
-        for (k, interface) in self.model.interfaces.iter().enumerate() {
-            let Some(law) = &interface.adhesion else {
-                continue;
-            };
-            let held = now.bonds[k]
-                .iter()
-                .filter(|b| b.in_frame(b.separation).holds(law));
-            let widest = held.fold(LEAST_REACH * law.damage_gap(), |m, b| m.max(2.0 * b.gap));
-            self.detector.extend(k, widest);
-        }
-    }
-
-    /// Counts the bonds that held before the step and whose pair the search has lost.
-    pub(crate) fn count_lost_bonds(&mut self, now: &State, map: &ContactMap) {
-        for (k, interface) in self.model.interfaces.iter().enumerate() {
-            let Some(law) = &interface.adhesion else {
-                continue;
-            };
-            for (slave_index, bond) in now.bonds[k].iter().enumerate() {
-                let key = ContactKey::new(k, slave_index);
-                if bond.in_frame(bond.separation).holds(law) && map.find(key).is_none() {
-                    self.counters.lost_bonds += 1;
-                }
-            }
-        }
-    }
-
-    /// The bonds at the start: those of touching pairs have the initial intensity, at most what their gap leaves where
-    /// intensities follow it at once.
-    pub(crate) fn initial_bonds(&mut self, u: &[f64]) -> Vec<Vec<NodeBond>> {
-        let mut bonds = no_bonds(self.model);
-        if bonds.iter().all(Vec::is_empty) {
-            return bonds;
-        }
-        let positions = self.model.positions(u);
-        let roundoff = ROUND_OFF * positions.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        for c in self.detector.detect(&positions, 0.0, 0.0).contacts {
-            let interface = &self.model.interfaces[c.interface];
-            let Some(law) = &interface.adhesion else {
-                continue;
-            };
-            // A node without area has no bond.
-            if interface.area[c.slave_index] == 0.0 {
-                continue;
-            }
-            let bond = &mut bonds[c.interface][c.slave_index];
-            bond.gap = c.gap.max(0.0);
-            bond.facet = c.facet;
-            if BondStep::new(law, 1.0, 0.0, Bond::default(), roundoff).touches(c.gap) {
-                bond.intensity = law.initial.min(law.lasting(bond.gap));
-            }
-        }
-        bonds
-    }
+/// How far the search has to reach as bonds hold, of each adhesive interface \[m\].
+pub(crate) fn reaches(model: &Model, now: &State) -> Vec<(usize, f64)> {
+    let adhesive = model.interfaces.iter().enumerate();
+    let adhesive = adhesive.filter_map(|(k, i)| Some((k, i.adhesion.as_ref()?)));
+    let reach = |(k, law): (usize, &Adhesion)| {
+        let bonds = now.bonds[k].iter();
+        let holding = bonds.filter(|b| b.with(b.separation).holds(law));
+        let least = LEAST_REACH * law.damage_gap();
+        (k, holding.fold(least, |m, b| m.max(OPENING * b.gap)))
+    };
+    adhesive.map(reach).collect()
 }
 
-impl ContactMemory {
-    /// A converged step is not believed where another end of it may satisfy the law too.
-    pub(crate) fn refuse_snap(
-        &self,
-        frame: &StepFrame<'_>,
-        trial: &Trial,
-    ) -> Result<(), StepFailure> {
-        let ends = trial.bonds.iter().zip(trial.x.chunks_exact(self.cone));
-        for (k, (bond, x)) in ends.enumerate() {
-            if bond.may_snap(&in_frame(x), self.local_stiffness(&trial.map.contacts[k])) {
-                return Err(StepFailure::Snap {
-                    contact: describe(frame.model, &trial.map, k),
-                    dt: frame.dt,
-                });
+/// How many bonds held before the step and have lost their pair in the search.
+pub(crate) fn lost_bonds(model: &Model, now: &State, map: &ContactMap) -> u64 {
+    let mut lost = 0;
+    for (k, interface) in model.interfaces.iter().enumerate() {
+        let Some(law) = &interface.adhesion else {
+            continue;
+        };
+        for (slave_index, bond) in now.bonds[k].iter().enumerate() {
+            let key = ContactKey::new(k, slave_index);
+            if bond.with(bond.separation).holds(law) && map.find(key).is_none() {
+                lost += 1;
             }
         }
-        Ok(())
     }
+    lost
+}
+
+/// The bonds at the start, given the contacts there: those of touching pairs have the initial intensity, at most what their gap
+/// leaves where intensities follow it at once.
+pub(crate) fn initial_bonds(
+    model: &Model,
+    positions: &[f64],
+    contacts: &[Contact],
+) -> Vec<Vec<NodeBond>> {
+    let mut bonds = no_bonds(model);
+    let roundoff = round_off(positions);
+    for c in contacts {
+        let interface = &model.interfaces[c.interface];
+        let Some(law) = &interface.adhesion else {
+            continue;
+        };
+        // A node without area has no bond.
+        if interface.area[c.slave_index] == 0.0 {
+            continue;
+        }
+        let bond = &mut bonds[c.interface][c.slave_index];
+        bond.gap = c.gap.max(0.0);
+        bond.facet = c.facet;
+        if BondStep::new(law, 1.0, 0.0, Bond::default(), roundoff).touches(c.gap) {
+            bond.intensity = law.initial.min(law.lasting(bond.gap));
+        }
+    }
+    bonds
+}
+
+/// A converged step is not believed where another end of it may satisfy the law too.
+pub(crate) fn refuse_snap(
+    step: &StepProblem<'_>,
+    iterate: &Iterate,
+    memory: &ContactMemory,
+) -> Result<(), StepFailure> {
+    for (k, (c, bond)) in iterate.map.contacts.iter().zip(&iterate.bonds).enumerate() {
+        if bond.may_snap(&iterate.local(k), memory.local_stiffness(c)) {
+            return Err(StepFailure::Snap {
+                contact: step.model.place(c),
+                dt: step.dt,
+            });
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,5 +1,65 @@
 //! What can go wrong below a scene, with the place and what to try.
 
+use std::fmt;
+
+use contact_bipotential::{GeometryError, Method};
+use fe_core::FeError;
+
+/// What to try where a contact problem was not solved.
+const CONTACT_ADVICE: &str = "try smaller steps";
+/// The same where bonds of a surface may catch or let go all at once.
+const SNAP_ADVICE: &str = "try smaller steps; where bonds catch or let go all at once there is no equilibrium on the way, but with some \
+                           viscosity b of the bonds or inertia of the bodies there is a motion";
+
+/// A contact that an error speaks of.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ContactPlace {
+    /// Name of the interface.
+    pub interface: String,
+    /// Slave node.
+    pub node: u32,
+    /// Its gap \[m\].
+    pub gap: f64,
+}
+
+impl fmt::Display for ContactPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            interface,
+            node,
+            gap,
+        } = self;
+        write!(
+            f,
+            "node {node} of interface \"{interface}\" (gap {gap:e} m)"
+        )
+    }
+}
+
+fn place(contact: &Option<ContactPlace>) -> String {
+    let none = || "no contact".to_owned();
+    contact.as_ref().map_or_else(none, ContactPlace::to_string)
+}
+
+/// A side of an interface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The nodes that may not enter.
+    Slave,
+    /// The surface that may not be entered.
+    Master,
+}
+
+impl fmt::Display for Side {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Side::Slave => "slave",
+            Side::Master => "master",
+        })
+    }
+}
+
 /// Why a model was refused or a run stopped.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -35,13 +95,13 @@ pub enum NscdError {
     },
     /// A node of an interface that starts under the other side, where no contact holds it.
     #[error(
-        "node {node} of interface \"{interface}\" starts inside the body of the {of}, {depth:e} m under its surface and {under:e} m \
-         from the {of} itself, and no contact is found for it (search_distance: {reach:e} m); start the bodies apart, set a larger \
-         search_distance, or let the {of} reach to where the node came in"
+        "node {node} of interface \"{interface}\" starts inside the body of the {side}, {depth:e} m under its surface and {under:e} m \
+         from the {side} itself, and no contact is found for it (search_distance: {reach:e} m); start the bodies apart, set a larger \
+         search_distance, or let the {side} reach to where the node came in"
     )]
-    Buried {
-        /// The side under which it lies: master or slave.
-        of: &'static str,
+    Overlap {
+        /// The side under which it lies.
+        side: Side,
         /// The node.
         node: u32,
         /// Name of the interface.
@@ -68,10 +128,10 @@ pub enum NscdError {
     },
     /// Element or mesh trouble outside a step.
     #[error(transparent)]
-    Element(#[from] fe_core::FeError),
+    Element(#[from] FeError),
     /// An interface that does not fit the mesh.
     #[error(transparent)]
-    Interface(#[from] contact_bipotential::GeometryError),
+    Interface(#[from] GeometryError),
     /// The smallest step failed too.
     #[error(
         "stopped at t = {time:e} s: no step down to {smallest:e} s converges. Last reason: {failure}"
@@ -102,11 +162,12 @@ pub enum StepFailure {
     #[error(
         "{0}: try smaller steps or a finer mesh there; where the body is crushed, a law that resists the collapse of matter"
     )]
-    Element(String),
+    Element(FeError),
     /// Newton's iteration did not reach the tolerance.
     #[error(
         "equilibrium not reached in {iterations} iterations: residual {residual:e} N at node {node} (allowed {allowed:e} N), \
-         contact error {contact_error:e} at {contact}; try smaller steps"
+         contact error {contact_error:e} at {place}; try smaller steps",
+        place = place(contact)
     )]
     Newton {
         /// Iterations done.
@@ -117,26 +178,28 @@ pub enum StepFailure {
         node: usize,
         /// What would have been accepted \[N\].
         allowed: f64,
-        /// Relative error of the contact law.
+        /// Relative error of the contact law \[-\].
         contact_error: f64,
-        /// Worst contact.
-        contact: String,
+        /// Worst contact, if there is any.
+        contact: Option<ContactPlace>,
     },
     /// The contact problem of an iteration was not solved.
     #[error(
-        "the contact problem of {contacts} contacts was not solved: error {error:e} ({method}), worst at {contact}; {advice}"
+        "the contact problem of {contacts} contacts was not solved: error {error:e} ({method:?}), worst at {place}; {advice}",
+        place = place(contact),
+        advice = if *bonded { SNAP_ADVICE } else { CONTACT_ADVICE }
     )]
     Contact {
         /// Contacts in the problem.
         contacts: usize,
-        /// Recomputed relative error.
+        /// Recomputed relative error \[-\].
         error: f64,
         /// Method that ended last.
-        method: String,
-        /// What to try.
-        advice: &'static str,
-        /// Worst contact.
-        contact: String,
+        method: Method,
+        /// Whether bonds were in it.
+        bonded: bool,
+        /// Worst contact, if there is any.
+        contact: Option<ContactPlace>,
     },
     /// The tangent stayed indefinite whatever was added to it.
     #[error(
@@ -187,7 +250,7 @@ pub enum StepFailure {
     )]
     Rim {
         /// The contact.
-        contact: String,
+        contact: ContactPlace,
     },
     /// Slave and master are both driven into each other.
     #[error(
@@ -196,13 +259,13 @@ pub enum StepFailure {
     )]
     Immovable {
         /// The contact.
-        contact: String,
+        contact: ContactPlace,
         /// How deep it would be \[m\], or the depth that stands for the velocity at the velocity level.
         depth: f64,
     },
     /// The compliance of a surface does not fit the mesh.
     #[error(transparent)]
-    Surface(#[from] contact_bipotential::GeometryError),
+    Surface(#[from] GeometryError),
     /// A slave crosses more than the contact search can see.
     #[error(
         "in interface \"{interface}\" slave and master move {travel:e} m against each other in one step, more than the \
@@ -236,7 +299,7 @@ pub enum StepFailure {
     )]
     Snap {
         /// The contact.
-        contact: String,
+        contact: ContactPlace,
         /// Length of the step \[s\].
         dt: f64,
     },

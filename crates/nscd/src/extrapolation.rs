@@ -5,6 +5,8 @@
 //! Displacements and contact forces are combined with the same weights, so that a balance which is
 //! linear in both stays one. Nothing is believed because of it: the next check recomputes everything.
 
+use crate::flat::{difference, dot};
+
 /// Corrections that are combined.
 const DEPTH: usize = 5;
 
@@ -87,14 +89,6 @@ impl Extrapolation {
         }
         (!basis.is_empty() && weights.iter().all(|w| w.is_finite())).then_some(weights)
     }
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -7,38 +7,48 @@
 //! with the contact law at the position level (the papers) or at the velocity level (Moreau-Jean),
 //! or without inertia. Every step ends with an energy audit whose terms all have their own formula.
 
+mod accept;
+mod blocked;
 mod body;
 mod bonds;
-mod brace;
-mod buried;
 mod contact;
+mod contact_stiffness;
+mod cost;
+mod elements;
 mod energy;
 mod error;
 mod extrapolation;
+mod flat;
 mod floating;
-mod held;
+mod iterate;
 mod law;
 mod linear;
+mod local;
 mod march;
+mod memory;
 mod model;
 mod monitor;
+mod operator;
 mod ordering;
+mod overlap;
 mod report;
+mod scales;
 mod scheme;
 mod search;
 mod settings;
 mod state;
+mod step_problem;
 mod stepper;
 mod swept;
-mod trial;
+mod tally;
+mod tunnelling;
 mod unsupported;
 
-pub use buried::Buried;
-pub use error::{NscdError, StepFailure};
+pub use error::{ContactPlace, NscdError, Side, StepFailure};
 pub use march::{Observer, Span, Totals, march};
 pub use model::{Load, Model, Rayleigh};
 pub use report::{
-    Clock, Counters, EnergyTerms, NoClock, Phase, Phases, Rejection, Resultant, StepReport,
+    Clock, Counters, EnergyTerms, NoClock, Overlap, Phase, Phases, Rejection, Resultant, StepReport,
 };
 pub use scheme::{ContactLevel, Inertia, Scheme};
 pub use settings::Settings;

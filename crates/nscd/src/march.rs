@@ -1,9 +1,8 @@
 //! From start to end: step control, observers, totals.
 
-use crate::buried::Buried;
 use crate::error::{NscdError, StepFailure};
 use crate::model::Model;
-use crate::report::{EnergyTerms, Rejection, StepReport};
+use crate::report::{EnergyTerms, Overlap, Rejection, StepReport};
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -41,7 +40,7 @@ pub struct Totals {
     /// Largest relative residual in an accepted step [-].
     pub max_residual: f64,
     /// Slave nodes inside their masters at the end of the run.
-    pub buried: Option<Buried>,
+    pub overlap: Option<Overlap>,
     /// Rejected steps.
     pub rejections: Vec<Rejection>,
 }
@@ -81,8 +80,8 @@ pub fn march(
 ) -> Result<(), NscdError> {
     totals.initial_energy = state.kinetic_energy + state.strain_energy + state.adhesive_energy;
     let end = advance(stepper, state, span, totals, observer);
-    totals.buried = stepper.buried(state);
-    let depth = totals.buried.map_or(0.0, |buried| buried.depth);
+    totals.overlap = stepper.overlap(state);
+    let depth = totals.overlap.map_or(0.0, |overlap| overlap.depth);
     totals.max_penetration = totals.max_penetration.max(depth);
     end
 }
@@ -100,7 +99,7 @@ fn advance(
             Ok((next, report)) => {
                 *state = next;
                 control.accepted(state);
-                stepper.counters.steps += 1;
+                stepper.count_step(true);
                 totals.add(&report, state);
                 observer
                     .accepted(stepper, state, &report, totals)
@@ -110,7 +109,7 @@ fn advance(
                     })?;
             }
             Err(reason) => {
-                stepper.counters.rejected_steps += 1;
+                stepper.count_step(false);
                 let rejection = Rejection {
                     time: state.time,
                     dt,
@@ -267,7 +266,7 @@ mod tests {
             let dt = control.next(t).unwrap();
             if dt > longest(made[0]) {
                 control
-                    .rejected(t, dt, &StepFailure::Element("inverted".into()))
+                    .rejected(t, dt, &StepFailure::NotFinite { node: 0 })
                     .unwrap();
                 made[1] += 1;
             } else {

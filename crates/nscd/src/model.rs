@@ -1,8 +1,10 @@
 //! What does not change during a run.
 
-use contact_bipotential::{Interface, Master};
+use contact_bipotential::{Cone, Contact, Interface, Master};
 use fe_core::{Dirichlet, MassMatrix, Solid, Table};
+use nalgebra::Vector3;
 
+use crate::error::ContactPlace;
 use crate::scheme::{Inertia, Scheme};
 use crate::settings::Settings;
 
@@ -126,6 +128,30 @@ impl Model {
         }
     }
 
+    /// The local law: one row a contact where nothing rubs.
+    pub(crate) fn cone(&self) -> Cone {
+        let rubs = |i: &Interface| {
+            let bonds = i.adhesion.as_ref();
+            i.mu > 0.0 || bonds.is_some_and(|a| a.is_tangential() || a.bonded_friction > Some(0.0))
+        };
+        if !self.interfaces.iter().any(rubs) {
+            Cone::Frictionless
+        } else if self.solid.dim() == 2 {
+            Cone::Planar
+        } else {
+            Cone::Spatial
+        }
+    }
+
+    /// A contact as an error names it.
+    pub(crate) fn place(&self, contact: &Contact) -> ContactPlace {
+        ContactPlace {
+            interface: self.interfaces[contact.interface].name.clone(),
+            node: contact.slave,
+            gap: contact.gap,
+        }
+    }
+
     /// Which nodes may come into contact.
     pub(crate) fn candidates(&self) -> Vec<bool> {
         let mut candidate = vec![false; self.solid.node_count()];
@@ -160,7 +186,7 @@ impl Model {
 }
 
 /// The place of a node in a flat array of `dim` components a node; the third is 0 in the plane.
-pub(crate) fn point(x: &[f64], dim: usize, node: u32) -> [f64; 3] {
+pub(crate) fn point(x: &[f64], dim: usize, node: u32) -> Vector3<f64> {
     let at = &x[dim * node as usize..dim * (node as usize + 1)];
-    std::array::from_fn(|c| at.get(c).copied().unwrap_or(0.0))
+    Vector3::from_fn(|c, _| at.get(c).copied().unwrap_or(0.0))
 }

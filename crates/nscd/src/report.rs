@@ -1,5 +1,9 @@
 //! What a run tells about itself: counters, phases, energies, forces.
 
+use nalgebra::Vector3;
+
+use crate::error::StepFailure;
+
 /// Work done, for proving what was skipped.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counters {
@@ -155,6 +159,30 @@ pub struct Resultant {
     pub moment: [f64; 3],
 }
 
+impl Resultant {
+    /// Adds the force `f` \[N\] at the place `at` \[m\].
+    pub(crate) fn add(&mut self, f: Vector3<f64>, at: Vector3<f64>) {
+        let m = at.cross(&f);
+        for i in 0..3 {
+            self.force[i] += f[i];
+            self.moment[i] += m[i];
+        }
+    }
+}
+
+/// Slave nodes that no contact holds, inside the bodies of their masters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// How many there are.
+    pub nodes: usize,
+    /// The deepest of them.
+    pub node: u32,
+    /// Its interface.
+    pub interface: usize,
+    /// Its distance to the boundary of the master's body \[m\].
+    pub depth: f64,
+}
+
 /// One accepted step.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StepReport {
@@ -188,5 +216,5 @@ pub struct Rejection {
     /// Its length \[s\].
     pub dt: f64,
     /// Why it was rejected.
-    pub reason: crate::error::StepFailure,
+    pub reason: StepFailure,
 }

@@ -36,6 +36,15 @@ pub struct State {
     pub u_before: Vec<f64>,
 }
 
+impl State {
+    /// What a slave node did at the end of the last step, if it was a candidate then.
+    #[must_use]
+    pub fn contact(&self, key: ContactKey) -> Option<&ContactState> {
+        let found = self.contacts.binary_search_by_key(&key, ContactState::key);
+        found.ok().map(|i| &self.contacts[i])
+    }
+}
+
 /// One candidate contact at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactState {
@@ -63,11 +72,13 @@ pub struct ContactState {
 
 impl ContactState {
     /// What the contact is called from one step to the next.
+    #[must_use]
     pub fn key(&self) -> ContactKey {
         ContactKey::new(self.interface, self.slave_index)
     }
 
-    /// The force on the slave in global axes \[N\].
+    /// Force on the slave in global axes \[N\].
+    #[must_use]
     pub fn global_force(&self) -> Vector3<f64> {
         self.frame * self.force
     }

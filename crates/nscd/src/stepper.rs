@@ -1,99 +1,86 @@
 //! One time step: predict, correct until balance and contact law agree, accept.
 
-use contact_bipotential::{ContactMap, Detector};
-use fe_core::{ElementWorkspace, FeError, Symmetry, node_adjacency};
+use std::fmt;
 
-use crate::body::{BodySystem, MatrixParts};
-use crate::bonds::{adhesive_energy, bond_steps, refuse_velocity_level};
-use crate::brace::braces;
-use crate::buried::Hull;
-use crate::contact::{ContactMemory, LinearisedContact, cone_of};
+use contact_bipotential::{ContactMap, ContactProblem};
+
+use crate::accept::accept;
+use crate::body::BodySystem;
+use crate::bonds::{
+    adhesive_energy, bond_steps, initial_bonds, lost_bonds, refuse_snap, refuse_velocity_level,
+};
+use crate::contact::ContactSolver;
+use crate::contact_stiffness::contact_stiffness;
+use crate::elements::Elements;
 use crate::error::{NscdError, StepFailure};
 use crate::extrapolation::Extrapolation;
-use crate::floating::is_floating;
-use crate::law::local_variable;
+use crate::iterate::Iterate;
+use crate::local::local_variable;
+use crate::memory::{ContactMemory, refuse_chattering};
 use crate::model::Model;
-use crate::monitor::{Check, Monitor};
-use crate::ordering::Graph;
-use crate::report::{Clock, Counters, Phase, Phases, StepReport};
-use crate::scheme::{ContactLevel, Inertia};
+use crate::monitor::Monitor;
+use crate::overlap::OverlapCheck;
+use crate::report::{Clock, Counters, Overlap, Phase, Phases, StepReport};
+use crate::scales::ModelScales;
+use crate::scheme::ContactLevel;
+use crate::search::ContactSearch;
 use crate::state::State;
-use crate::trial::{StepFrame, Trial, damping_force};
+use crate::step_problem::StepProblem;
+use crate::tally::Tally;
+use crate::tunnelling::refuse_tunnelling;
 use crate::unsupported::refuse_unsupported;
+
+/// Distance of two times over the step below which they are the same \[-\].
+const SAME_TIME: f64 = 1e-9;
+/// Part of a correction below which it is not shortened further when it turns an element inside out \[-\].
+const SHORTEST: f64 = 0.1;
 
 /// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
 /// leaves the state as it was.
 pub struct Stepper<'m> {
-    pub(crate) model: &'m Model,
-    pub(crate) bodies: Vec<BodySystem>,
-    pub(crate) fixed: Vec<bool>,
-    pub(crate) detector: Detector,
-    pub(crate) hulls: Vec<Hull>,
-    pub(crate) memory: ContactMemory,
-    work: ElementWorkspace,
-    initial_stiffness: Option<ElementWorkspace>,
-    extrapolation: Extrapolation,
+    model: &'m Model,
+    scales: ModelScales,
+    /// Times that no step crosses \[s\].
     breakpoints: Vec<f64>,
-    /// Work done so far.
-    pub counters: Counters,
-    /// Seconds by phase so far.
-    pub phases: Phases,
-    pub(crate) clock: Box<dyn Clock>,
+    /// Which unknowns are prescribed.
+    fixed: Vec<bool>,
+    elements: Elements<'m>,
+    bodies: Vec<BodySystem>,
+    search: ContactSearch<'m>,
+    overlap: OverlapCheck<'m>,
+    memory: ContactMemory,
+    contact: ContactSolver,
+    extrapolation: Extrapolation,
+    tally: Tally,
 }
 
 impl<'m> Stepper<'m> {
     /// Orders and analyses every body.
     ///
     /// # Errors
-    /// Scheme parameters out of bounds, a matrix that cannot be analysed, an inverted element.
+    /// Scheme parameters out of bounds, a matrix that cannot be analysed, an inverted element, a body that nothing holds, bodies
+    /// that overlap.
     pub fn new(model: &'m Model, clock: Box<dyn Clock>) -> Result<Self, NscdError> {
         model.scheme.validated()?;
         let fixed = model.prescribed();
-        let candidate = model.candidates();
-        let (offsets, neighbours) = node_adjacency(&model.solid);
-        let graph = Graph {
-            offsets: &offsets,
-            neighbours: &neighbours,
-        };
         refuse_unsupported(model, &fixed)?;
         refuse_velocity_level(model)?;
-        let dim = model.solid.dim();
-        let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
-        let all = model.solid.bodies();
-        // A body that is driven as a whole has no system to solve.
-        let bodies = (0..all.len())
-            .filter(|&b| all[b].iter().any(unknown))
-            .map(|b| {
-                let mut body = BodySystem::new(&model.solid, graph, b, &fixed, &candidate)?;
-                let massless = model.scheme.inertia == Inertia::QuasiStatic;
-                body.floating = massless && is_floating(model, &all[b], &fixed);
-                Ok(body)
-            })
-            .collect::<Result<_, NscdError>>()?;
-        let mut work = model.solid.workspace();
-        let initial_stiffness = if model.damping.stiffness > 0.0 {
-            let zero = vec![0.0; model.dof_count()];
-            model.solid.tangent(&zero, &mut work, &mut zero.clone())?;
-            Some(std::mem::replace(&mut work, model.solid.workspace()))
-        } else {
-            None
-        };
         let mut stepper = Self {
-            bodies,
-            fixed,
-            detector: detector(model)?,
-            hulls: Hull::masters(model)?,
-            memory: ContactMemory::new(model),
-            work,
-            initial_stiffness,
-            extrapolation: Extrapolation::default(),
-            breakpoints: model.breakpoints(),
-            counters: Counters::default(),
-            phases: [0.0; 6],
-            clock,
             model,
+            scales: ModelScales::of(model),
+            breakpoints: model.breakpoints(),
+            bodies: BodySystem::all(model, &fixed)?,
+            fixed,
+            elements: Elements::new(model)?,
+            search: ContactSearch::new(model)?,
+            overlap: OverlapCheck::new(model)?,
+            memory: ContactMemory::new(model),
+            contact: ContactSolver::default(),
+            extrapolation: Extrapolation::default(),
+            tally: Tally::new(clock),
         };
-        stepper.refuse_overlap()?;
+        let (search, tally) = (&mut stepper.search, &mut stepper.tally);
+        stepper.overlap.refuse_start(search, tally)?;
         Ok(stepper)
     }
 
@@ -102,29 +89,52 @@ impl<'m> Stepper<'m> {
         self.model
     }
 
-    /// The state at `t = 0` with the given velocities [m/s].
+    /// Work done so far.
+    pub fn counters(&self) -> &Counters {
+        &self.tally.counters
+    }
+
+    /// Seconds by phase so far, in the order of [`Phase::ALL`].
+    pub fn phases(&self) -> &Phases {
+        &self.tally.phases
+    }
+
+    /// The contact problem of the last iteration that had one in the last step \[m, N\], a copy; `None` where nothing touched.
+    /// With bonds it is the problem that they leave for the dry forces.
+    pub fn last_contact_problem(&self) -> Option<ContactProblem> {
+        self.contact.last_problem()
+    }
+
+    /// Slave nodes inside the bodies of their masters that no contact holds, wherever they came in, but for those that another
+    /// interface is nearer to.
+    pub fn overlap(&mut self, state: &State) -> Option<Overlap> {
+        self.overlap.find(state, &mut self.search, &mut self.tally)
+    }
+
+    /// The state at `t = 0` with the given velocities \[m/s\].
     ///
     /// # Errors
     /// An element that is inverted from the start.
     pub fn initial_state(&mut self, mut velocity: Vec<f64>) -> Result<State, NscdError> {
-        let n = self.model.dof_count();
+        let (model, n) = (self.model, self.model.dof_count());
         let mut u = vec![0.0; n];
-        self.model.prescribe(0.0, &mut u);
-        (0..n)
-            .filter(|&i| self.fixed[i])
-            .for_each(|i| velocity[i] = 0.0);
+        model.prescribe(0.0, &mut u);
+        let prescribed = velocity.iter_mut().zip(&self.fixed).filter(|(_, f)| **f);
+        prescribed.for_each(|(v, _)| *v = 0.0);
         let mut internal_force = vec![0.0; n];
-        let strain_energy =
-            self.model
-                .solid
-                .internal_force(&u, &mut self.work, &mut internal_force)?;
+        let strain_energy = self.elements.internal_force(&u, &mut internal_force)?;
         let mut external_force = vec![0.0; n];
-        self.model.external_force(0.0, &mut external_force);
-        let bonds = self.initial_bonds(&u);
+        model.external_force(0.0, &mut external_force);
+        let mut contacts = Vec::new();
+        let positions = model.positions(&u);
+        if model.interfaces.iter().any(|i| i.adhesion.is_some()) {
+            contacts = self.search.contacts_at(&positions, 0.0);
+        }
+        let bonds = initial_bonds(model, &positions, &contacts);
         Ok(State {
             time: 0.0,
-            kinetic_energy: self.model.kinetic_energy(&velocity),
-            adhesive_energy: adhesive_energy(self.model, &bonds),
+            kinetic_energy: model.kinetic_energy(&velocity),
+            adhesive_energy: adhesive_energy(model, &bonds),
             bonds,
             u_before: u.clone(),
             u,
@@ -144,282 +154,224 @@ impl<'m> Stepper<'m> {
     /// # Errors
     /// Why the step was rejected.
     pub fn step(&mut self, now: &State, dt: f64) -> Result<(State, StepReport), StepFailure> {
-        self.memory.restore(now);
-        self.reach_for_bonds(now);
-        self.extrapolation.forget();
-        let frame = StepFrame::new(self.model, now, dt, self.initial_stiffness.as_ref());
-        let mut trial = self.predict(&frame)?;
-        let mut monitor = Monitor::new(&self.bodies, self.model, self.memory.rows());
+        self.begin(now);
+        let step = StepProblem::new(&self.elements, now, dt);
+        let mut iterate = self.predict(&step)?;
+        let mut monitor = Monitor::new(&self.bodies, &self.scales, self.memory.rows());
         loop {
-            let check = monitor.check(self, &frame, &trial)?;
+            let (bodies, memory) = (&mut self.bodies, &self.memory);
+            let check = monitor.check(&step, &iterate, bodies, memory, &self.scales)?;
             if check.converged {
-                self.refuse_tunnelling(&frame, &trial)?;
-                self.memory.refuse_unsettled(&frame, &trial)?;
-                self.memory.refuse_snap(&frame, &trial)?;
-                let unforeseen = self.settle_gaps(&frame, &mut trial)?;
-                return Ok(self.accept(&frame, trial, &check, unforeseen));
+                let unforeseen = self.confirm(&step, &mut iterate)?;
+                return Ok(accept(&step, iterate, &check, &self.fixed, unforeseen));
             }
             if check.iteration == self.model.settings.newton_iterations {
-                return Err(self.no_equilibrium(&frame, &trial, &check));
+                return Err(check.failure(&step, &iterate, &self.bodies));
             }
-            self.refresh_tangents(&frame, &trial, &monitor)?;
-            let correction = self.correction(
-                &frame,
-                &trial,
-                monitor.contact_accuracy(&check, self.memory.rows()),
-            )?;
-            self.apply(&frame, &mut trial, correction)?;
-            self.counters.newton_iterations += 1;
+            self.refresh_tangents(&step, &iterate, &monitor)?;
+            let accuracy = monitor.contact_accuracy(&check, self.memory.rows());
+            let correction = self.correction(&step, &iterate, accuracy)?;
+            self.apply(&step, &mut iterate, correction)?;
+            self.tally.counters.newton_iterations += 1;
         }
     }
 
-    /// Why the iterations did not suffice.
-    fn no_equilibrium(&self, frame: &StepFrame<'_>, trial: &Trial, check: &Check) -> StepFailure {
-        let adrift = self
-            .bodies
-            .iter()
-            .find(|body| body.floating && check.is_left_in(body));
-        match adrift {
-            Some(body) => StepFailure::Adrift {
-                node: body.dofs[0] as usize / frame.model.solid.dim(),
-            },
-            None => check.failure(frame, trial),
-        }
+    /// Takes note of an accepted or rejected step.
+    pub(crate) fn count_step(&mut self, is_accepted: bool) {
+        let counters = &mut self.tally.counters;
+        counters.steps += u64::from(is_accepted);
+        counters.rejected_steps += u64::from(!is_accepted);
     }
 
-    fn predict(&mut self, frame: &StepFrame<'_>) -> Result<Trial, StepFailure> {
-        let at_breakpoint = self
-            .breakpoints
-            .iter()
-            .any(|t| (t - frame.now.time).abs() <= 1e-9 * frame.dt);
-        let (u, pending) = frame.predict(&self.fixed, at_breakpoint);
-        let n = u.len();
-        let zeros = || vec![0.0; n];
-        let mut trial = Trial {
-            v: zeros(),
-            internal_force: zeros(),
-            strain_energy: 0.0,
-            damping_force: zeros(),
-            balance: zeros(),
-            map: ContactMap::new(Vec::new(), self.model.solid.dim(), cone_of(self.model)),
-            given_up: None,
-            bonds: Vec::new(),
-            x: Vec::new(),
-            r: Vec::new(),
-            contact_force: zeros(),
-            pending,
-            u,
-        };
+    fn begin(&mut self, now: &State) {
+        self.memory.restore(now);
+        self.contact.begin_step();
+        self.search.reach_for_bonds(now);
+        self.extrapolation.forget();
+    }
+
+    fn predict(&mut self, step: &StepProblem<'_>) -> Result<Iterate, StepFailure> {
+        let is_now = |t: &f64| (t - step.now.time).abs() <= SAME_TIME * step.dt;
+        let at_breakpoint = self.breakpoints.iter().any(is_now);
+        let (u, pending) = step.predict(&self.fixed, at_breakpoint);
+        let mut iterate = Iterate::at(self.model, u, pending);
         if self.model.scheme.contact == ContactLevel::Velocity {
-            trial.map = self.predicted_contacts(frame);
+            let reach = self.scales.reach;
+            iterate.map = self.search.predicted_contacts(step, reach, &mut self.tally);
         }
-        match self.evaluate(frame, &mut trial) {
-            Err(StepFailure::Element(_)) if trial.pending.is_none() => {
-                self.start_from_rest(frame, trial)
+        match self.evaluate(step, &mut iterate) {
+            Err(StepFailure::Element(_)) if iterate.pending.is_none() => {
+                self.start_from_rest(step, &mut iterate)?;
             }
-            other => other.map(|()| trial),
+            other => other?,
         }
+        Ok(iterate)
     }
 
     /// The extrapolation turned an element inside out: start from the old positions instead and
     /// let the prescribed motion come in through the tangent.
     fn start_from_rest(
         &mut self,
-        frame: &StepFrame<'_>,
-        mut trial: Trial,
-    ) -> Result<Trial, StepFailure> {
-        let mut target = frame.now.u.clone();
-        self.model.prescribe(frame.end(), &mut target);
-        trial.u.copy_from_slice(&frame.now.u);
-        trial.pending = Some(
-            target
-                .iter()
-                .zip(&frame.now.u)
-                .map(|(a, b)| a - b)
-                .collect(),
-        );
-        self.evaluate(frame, &mut trial)?;
-        Ok(trial)
+        step: &StepProblem<'_>,
+        iterate: &mut Iterate,
+    ) -> Result<(), StepFailure> {
+        iterate.u.copy_from_slice(&step.now.u);
+        iterate.pending = Some(step.prescribed_way(&step.now.u));
+        self.evaluate(step, iterate)
     }
 
     /// Forces, contacts and balance at the iterate.
-    fn evaluate(&mut self, frame: &StepFrame<'_>, trial: &mut Trial) -> Result<(), StepFailure> {
-        let start = self.clock.seconds();
-        let solid = &self.model.solid;
-        trial.strain_energy = solid
-            .internal_force(&trial.u, &mut self.work, &mut trial.internal_force)
-            .map_err(inverted)?;
-        self.counters.force_evaluations += 1;
-        frame.end_velocity(&trial.u, &self.fixed, &mut trial.v);
+    fn evaluate(
+        &mut self,
+        step: &StepProblem<'_>,
+        iterate: &mut Iterate,
+    ) -> Result<(), StepFailure> {
+        let start = self.tally.seconds();
+        let elements = &mut self.elements;
+        iterate.strain_energy = elements
+            .internal_force(&iterate.u, &mut iterate.internal_force)
+            .map_err(StepFailure::Element)?;
+        self.tally.counters.force_evaluations += 1;
+        step.end_velocity(&iterate.u, &self.fixed, &mut iterate.v);
         if !self.model.damping.is_none() {
-            trial.damping_force =
-                damping_force(self.model, self.initial_stiffness.as_ref(), &trial.v);
+            iterate.damping_force = elements.damping_force(&iterate.v);
         }
-        frame.balance(trial);
-        self.book(Phase::Elements, start);
+        iterate.balance_forces(step);
+        self.tally.book(Phase::Elements, start);
         if self.model.scheme.contact == ContactLevel::Position && !self.model.interfaces.is_empty()
         {
-            let found = self.detect(frame, &trial.u);
-            (trial.map, trial.given_up) = self.memory.settle_rims(found);
-            trial.bonds = bond_steps(frame, &trial.map, &trial.u);
+            let tally = &mut self.tally;
+            let found = self.search.contacts_after(step, &iterate.u, tally);
+            (iterate.map, iterate.chattering) = self.memory.leave_out_chattering(found);
+            iterate.bonds = bond_steps(step, &iterate.map, &iterate.u);
         }
-        trial.x = local_variable(frame, &trial.map, self.memory.cone, &trial.u, &trial.v);
-        trial.r = self.memory.recall(&trial.map);
-        trial.contact_force.fill(0.0);
-        trial
-            .map
-            .apply_transpose(&trial.r, &mut trial.contact_force);
+        iterate.x = local_variable(step, &iterate.map, &iterate.u, &iterate.v);
+        iterate.r = self.memory.recall(&iterate.map);
+        iterate.contact_force.fill(0.0);
+        let force = &mut iterate.contact_force;
+        iterate.map.apply_transpose(&iterate.r, force);
         Ok(())
     }
 
     /// Factorizes the bodies whose tangent is missing or no longer worth keeping.
     fn refresh_tangents(
         &mut self,
-        frame: &StepFrame<'_>,
-        trial: &Trial,
+        step: &StepProblem<'_>,
+        iterate: &Iterate,
         monitor: &Monitor,
     ) -> Result<(), StepFailure> {
-        let stale: Vec<bool> = (0..self.bodies.len())
-            .map(|b| monitor.is_stale(b, &self.bodies[b], frame))
+        let bodies = self.bodies.iter().enumerate();
+        let stale: Vec<bool> = bodies
+            .map(|(b, body)| monitor.is_stale(b, body, step))
             .collect();
         if !stale.contains(&true) {
             return Ok(());
         }
         self.extrapolation.forget();
-        let start = self.clock.seconds();
-        let mut force = vec![0.0; trial.u.len()];
-        self.model
-            .solid
-            .tangent(&trial.u, &mut self.work, &mut force)
-            .map_err(inverted)?;
-        self.counters.tangent_evaluations += 1;
-        self.book(Phase::Elements, start);
-        let start = self.clock.seconds();
-        let parts = MatrixParts {
-            mass: &self.model.mass,
-            mass_damping: self.model.damping.mass,
-            initial_stiffness: self
-                .initial_stiffness
-                .as_ref()
-                .map(|w| (w, self.model.damping.stiffness)),
-        };
-        let braces = match self.model.scheme.contact {
-            ContactLevel::Position => braces(trial, self.memory.cone),
+        let start = self.tally.seconds();
+        self.elements
+            .update_tangents(&iterate.u)
+            .map_err(StepFailure::Element)?;
+        self.tally.counters.tangent_evaluations += 1;
+        self.tally.book(Phase::Elements, start);
+        let start = self.tally.seconds();
+        let contacts = match self.model.scheme.contact {
+            ContactLevel::Position => contact_stiffness(iterate),
             ContactLevel::Velocity => Vec::new(),
         };
         for (body, _) in self.bodies.iter_mut().zip(&stale).filter(|(_, s)| **s) {
-            body.refactor(
-                &self.work,
-                parts,
-                frame.weights,
-                &braces,
-                &mut self.counters,
-            )?;
+            let counters = &mut self.tally.counters;
+            body.refactor(&self.elements, step.weights, &contacts, counters)?;
         }
-        self.book(Phase::Factorization, start);
+        self.tally.book(Phase::Factorization, start);
         Ok(())
     }
 
-    /// The correction of all displacements that balances the linearised bodies under the contact law.
+    /// The correction of all displacements \[m\] that balances the linearised bodies under the contact law, which is solved to
+    /// the relative error `accuracy`.
     fn correction(
         &mut self,
-        frame: &StepFrame<'_>,
-        trial: &Trial,
-        tolerance: f64,
+        step: &StepProblem<'_>,
+        iterate: &Iterate,
+        accuracy: f64,
     ) -> Result<Vec<f64>, StepFailure> {
-        let mut z = vec![0.0; trial.u.len()];
-        let start = self.clock.seconds();
-        let rhs = self.right_hand_side(frame, trial);
+        let mut z = vec![0.0; iterate.u.len()];
+        let start = self.tally.seconds();
+        let rhs = self.right_hand_side(step, iterate);
         self.bodies.iter_mut().for_each(|body| body.forward(&rhs));
-        self.book(Phase::Substitution, start);
-        let pressed = trial.r.iter().any(|r| *r != 0.0);
+        self.tally.book(Phase::Substitution, start);
+        let pressed = iterate.r.iter().any(|r| *r != 0.0);
         if !pressed {
             self.substitute_back(None, &mut z)?;
-            if self.stays_open(trial, &z) {
+            if iterate.stays_open(&z) {
                 self.memory.clear();
                 return Ok(z);
             }
         }
-        let start = self.clock.seconds();
-        let linearised = LinearisedContact::new(
-            frame,
-            &mut self.memory,
-            &mut self.bodies,
-            trial,
-            &mut self.counters,
-        )?;
-        self.book(Phase::Condensation, start);
-        let start = self.clock.seconds();
-        let force =
-            linearised.solve(self.model, tolerance, &mut self.memory, &mut self.counters)?;
-        self.book(Phase::Contact, start);
+        let (bodies, memory, tally) = (&mut self.bodies, &mut self.memory, &mut self.tally);
+        let start = tally.seconds();
+        let counters = &mut tally.counters;
+        let linearised = self
+            .contact
+            .linearise(step, iterate, bodies, memory, counters)?;
+        tally.book(Phase::Condensation, start);
+        let start = tally.seconds();
+        let counters = &mut tally.counters;
+        let force = self
+            .contact
+            .solve(linearised, self.model, accuracy, memory, counters)?;
+        tally.book(Phase::Contact, start);
         self.substitute_back(Some(&force), &mut z)?;
         Ok(z)
     }
 
-    fn right_hand_side(&self, frame: &StepFrame<'_>, trial: &Trial) -> Vec<f64> {
-        let mut rhs = trial.balance.clone();
-        if let Some(pending) = &trial.pending {
-            let mut coupling = vec![0.0; rhs.len()];
-            self.model
-                .solid
-                .tangent_times(&self.work, pending, &mut coupling);
-            rhs.iter_mut()
-                .zip(&coupling)
-                .for_each(|(b, k)| *b -= frame.weights.stiffness * k);
+    fn right_hand_side(&self, step: &StepProblem<'_>, iterate: &Iterate) -> Vec<f64> {
+        let mut rhs = iterate.balance.clone();
+        if let Some(pending) = &iterate.pending {
+            let coupling = self.elements.tangent_times(pending);
+            let rows = rhs.iter_mut().zip(&coupling);
+            rows.for_each(|(b, k)| *b -= step.weights.stiffness * k);
         }
-        for brace in self.bodies.iter().flat_map(BodySystem::braces) {
-            brace.load(&trial.map, &trial.x, &trial.r, &mut rhs);
+        for contact in self.bodies.iter().flat_map(BodySystem::contact_stiffness) {
+            contact.load(&iterate.map, &iterate.x, &iterate.r, &mut rhs);
         }
         rhs
     }
 
     fn substitute_back(&mut self, force: Option<&[f64]>, z: &mut [f64]) -> Result<(), StepFailure> {
-        let start = self.clock.seconds();
+        let start = self.tally.seconds();
         for body in &mut self.bodies {
-            body.backward(force, z, &mut self.counters)?;
+            body.backward(force, z, &mut self.tally.counters)?;
         }
-        self.book(Phase::Substitution, start);
+        self.tally.book(Phase::Substitution, start);
         Ok(())
-    }
-
-    /// Whether every candidate would stay open under the correction `z` alone.
-    fn stays_open(&self, trial: &Trial, z: &[f64]) -> bool {
-        let cone = self.memory.cone;
-        let mut moved = vec![0.0; trial.x.len()];
-        trial.map.apply(z, &mut moved);
-        (0..trial.map.contacts.len()).all(|k| {
-            let n = cone * k + cone - 1;
-            let gap = trial.x[n] + moved[n];
-            gap >= 0.0 && !trial.bonds.get(k).is_some_and(|bond| bond.may_act(gap))
-        })
     }
 
     /// Moves the iterate; a correction that turns an element inside out is halved.
     fn apply(
         &mut self,
-        frame: &StepFrame<'_>,
-        trial: &mut Trial,
+        step: &StepProblem<'_>,
+        iterate: &mut Iterate,
         mut z: Vec<f64>,
     ) -> Result<(), StepFailure> {
-        if let Some(pending) = trial.pending.take() {
+        if let Some(pending) = iterate.pending.take() {
             z.iter_mut().zip(&pending).for_each(|(z, p)| *z += p);
         } else {
-            self.extrapolate(trial, &mut z);
+            self.extrapolate(iterate, &mut z);
         }
-        let from = trial.u.clone();
+        let from = iterate.u.clone();
         let mut scale = 1.0;
         loop {
             for i in 0..from.len() {
-                trial.u[i] = from[i] + scale * z[i];
+                iterate.u[i] = from[i] + scale * z[i];
             }
-            match self.evaluate(frame, trial) {
-                Err(StepFailure::Element(_)) if scale > 0.1 => scale *= 0.5,
+            match self.evaluate(step, iterate) {
+                Err(StepFailure::Element(_)) if scale > SHORTEST => scale *= 0.5,
                 Err(failure) => return Err(failure),
                 Ok(()) if scale == 1.0 => return Ok(()),
                 Ok(()) => {
-                    let left = self.prescribed_rest(frame, &trial.u);
-                    trial.pending = left;
+                    let left = step.prescribed_way(&iterate.u);
+                    iterate.pending = left.iter().any(|x| *x != 0.0).then_some(left);
                     return Ok(());
                 }
             }
@@ -427,49 +379,64 @@ impl<'m> Stepper<'m> {
     }
 
     /// Lets the earlier corrections of the step improve the correction and the contact forces.
-    fn extrapolate(&mut self, trial: &Trial, z: &mut [f64]) {
-        let mut iterate: Vec<f64> = trial.u.iter().zip(&*z).map(|(u, z)| u + z).collect();
-        iterate.extend(self.memory.flat_forces());
-        self.extrapolation.apply(&mut iterate, z);
-        let (u, forces) = iterate.split_at(z.len());
-        z.iter_mut()
-            .zip(u.iter().zip(&trial.u))
-            .for_each(|(z, (new, old))| *z = new - old);
+    fn extrapolate(&mut self, iterate: &Iterate, z: &mut [f64]) {
+        let mut corrected: Vec<f64> = iterate.u.iter().zip(&*z).map(|(u, z)| u + z).collect();
+        corrected.extend(self.memory.flat_forces());
+        self.extrapolation.apply(&mut corrected, z);
+        let (u, forces) = corrected.split_at(z.len());
+        let nodes = z.iter_mut().zip(u.iter().zip(&iterate.u));
+        nodes.for_each(|(z, (new, old))| *z = new - old);
         self.memory.set_flat_forces(forces);
     }
 
-    /// What the prescribed dofs still lack after a shortened correction.
-    fn prescribed_rest(&self, frame: &StepFrame<'_>, u: &[f64]) -> Option<Vec<f64>> {
-        let mut target = u.to_vec();
-        self.model.prescribe(frame.end(), &mut target);
-        target.iter_mut().zip(u).for_each(|(t, u)| *t -= u);
-        target.iter().any(|t| *t != 0.0).then_some(target)
+    /// Refuses a converged iterate that something speaks against, and gives its contacts their gaps at the end of the step: at
+    /// the velocity level they keep their predicted frames. Returns the deepest penetration \[m\] of slave nodes that no contact
+    /// was predicted for.
+    fn confirm(
+        &mut self,
+        step: &StepProblem<'_>,
+        iterate: &mut Iterate,
+    ) -> Result<f64, StepFailure> {
+        refuse_tunnelling(step, &iterate.u)?;
+        refuse_chattering(self.model, iterate.chattering.as_ref())?;
+        refuse_snap(step, iterate, &self.memory)?;
+        let mut unforeseen = 0.0;
+        if !self.model.interfaces.is_empty() {
+            if self.model.scheme.contact == ContactLevel::Velocity {
+                let end = self
+                    .search
+                    .contacts_after(step, &iterate.u, &mut self.tally);
+                self.overlap
+                    .refuse_lost(step.now, &iterate.u, &end.contacts)?;
+                unforeseen = settle_gaps(&mut iterate.map, &end);
+            } else {
+                let contacts = &iterate.map.contacts;
+                self.overlap.refuse_lost(step.now, &iterate.u, contacts)?;
+            }
+        }
+        self.tally.counters.lost_bonds += lost_bonds(self.model, step.now, &iterate.map);
+        Ok(unforeseen)
     }
+}
 
-    pub(crate) fn book(&mut self, phase: Phase, start: f64) {
-        self.phases[phase as usize] += self.clock.seconds() - start;
+/// Gives the contacts of a map the gaps of `end`; returns the deepest penetration there \[m\].
+fn settle_gaps(map: &mut ContactMap, end: &ContactMap) -> f64 {
+    for c in &mut map.contacts {
+        if let Some(k) = end.find(c.key()) {
+            c.gap = end.contacts[k].gap;
+        }
     }
+    end.contacts.iter().map(|c| -c.gap).fold(0.0, f64::max)
 }
 
-fn detector(model: &Model) -> Result<Detector, NscdError> {
-    let reference = model.positions(&vec![0.0; model.dof_count()]);
-    let interfaces = model.interfaces.clone();
-    let detector = Detector::new(interfaces, &reference, model.solid.dim(), cone_of(model))?;
-    Ok(match model.solid.mesh().symmetry {
-        Symmetry::Axisymmetric => detector.axisymmetric(&reference),
-        _ => detector,
-    })
-}
-
-fn inverted(error: FeError) -> StepFailure {
-    StepFailure::Element(error.to_string())
-}
-
-impl std::fmt::Debug for Stepper<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl fmt::Debug for Stepper<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Stepper")
             .field("bodies", &self.bodies.len())
-            .field("counters", &self.counters)
+            .field("counters", &self.tally.counters)
             .finish()
     }
 }
+
+#[cfg(test)]
+mod tests;

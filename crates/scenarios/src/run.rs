@@ -90,7 +90,7 @@ pub fn run_with(
     if let Some(failure) = recorder.failure {
         return Err(failure.into());
     }
-    recorder.frame(&state, stepper.counters.steps as usize, true)?;
+    recorder.frame(&state, stepper.counters().steps as usize, true)?;
     let stopped = end.err().map(|error| match recorder.interrupted {
         true => format!("interrupted at t = {:e} s", state.time),
         false => error.to_string(),
@@ -153,7 +153,7 @@ impl Recorder<'_> {
     ) -> Result<(), OutputError> {
         let row = row(&self.loaded.scene, self.built, state, report, totals);
         self.results.record(&row)?;
-        let step = stepper.counters.steps as usize;
+        let step = stepper.counters().steps as usize;
         if self.dump == Some(step)
             && let Some(problem) = stepper.last_contact_problem()
         {
@@ -175,9 +175,9 @@ impl Observer for Recorder<'_> {
         (self.watch)(&Progress {
             time: state.time,
             end: self.built.span.end,
-            steps: stepper.counters.steps as usize,
-            rejected_steps: stepper.counters.rejected_steps as usize,
-            newton_iterations: stepper.counters.newton_iterations as usize,
+            steps: stepper.counters().steps as usize,
+            rejected_steps: stepper.counters().rejected_steps as usize,
+            newton_iterations: stepper.counters().newton_iterations as usize,
             contacts: report.contacts_closed,
         });
         self.record(stepper, state, report, totals)
@@ -197,7 +197,7 @@ impl Observer for Recorder<'_> {
 /// Where in a scene to look for the cause of an error.
 fn place(error: &NscdError) -> String {
     match error {
-        NscdError::Buried { interface, .. } => format!("interfaces.{interface}"),
+        NscdError::Overlap { interface, .. } => format!("interfaces.{interface}"),
         _ => "time".to_owned(),
     }
 }
@@ -238,11 +238,11 @@ fn warnings(
              step; try a larger master, smaller steps or a larger search_distance"
         ));
     }
-    if let Some(buried) = totals.buried {
+    if let Some(overlap) = totals.overlap {
         warnings.push(format!(
             "at the end {} slave nodes lie inside the bodies of their masters and no contact holds them, node {} of interface \"{}\" \
              {:e} m deep: they came in through sides that belong to no master, or over its rim",
-            buried.nodes, buried.node, model.interfaces[buried.interface].name, buried.depth
+            overlap.nodes, overlap.node, model.interfaces[overlap.interface].name, overlap.depth
         ));
     }
     warnings
@@ -256,9 +256,9 @@ pub fn summarise(
     stopwatch: &Stopwatch,
     stopped: Option<String>,
 ) -> Summary {
-    let (counters, solid) = (&stepper.counters, &stepper.model().solid);
+    let (counters, solid) = (stepper.counters(), &stepper.model().solid);
     let energy = EnergySummary::new(totals.initial_energy, &energies(state, totals));
-    let phases = Phase::ALL.iter().zip(stepper.phases);
+    let phases = Phase::ALL.iter().zip(stepper.phases());
     Summary {
         status: if stopped.is_none() {
             Status::Completed
@@ -278,7 +278,7 @@ pub fn summarise(
         contacts_max: counters.contacts_max as usize,
         bonded_solves: counters.bonded_solves,
         phases: phases
-            .map(|((_, name), seconds)| ((*name).to_owned(), seconds))
+            .map(|((_, name), seconds)| ((*name).to_owned(), *seconds))
             .collect(),
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,

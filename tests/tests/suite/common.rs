@@ -78,7 +78,7 @@ impl Observer for Recorder {
         self.steps.push(Step {
             report: report.clone(),
             state: state.clone(),
-            counters: stepper.counters,
+            counters: *stepper.counters(),
         });
         Ok(())
     }
@@ -108,7 +108,7 @@ pub(crate) fn try_run_built(built: Built) -> Run {
             &mut totals,
             &mut recorder,
         );
-        (start, end, stepper.counters)
+        (start, end, *stepper.counters())
     };
     assert_eq!(recorder.rejected as u64, counters.rejected_steps);
     if end.is_ok() {

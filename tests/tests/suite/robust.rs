@@ -1,6 +1,6 @@
 //! Scenes at the edge of what the program takes, most of them found by the stress runs.
 
-use nscd::{NoClock, NscdError, State, StepFailure, Stepper};
+use nscd::{NoClock, NscdError, Side, State, StepFailure, Stepper};
 use scenarios::build::build;
 use scenarios::spec::LoadedScene;
 
@@ -236,7 +236,7 @@ fn an_overlap_that_the_search_does_not_see_is_refused() {
         }
         for (deep, node) in [([0.0, -0.25], 0), ([0.0, -0.6], 0), ([1.75, -0.5], 0)] {
             let end = pair(space, deep);
-            let Err(error @ NscdError::Buried { node: found, .. }) = &end else {
+            let Err(error @ NscdError::Overlap { node: found, .. }) = &end else {
                 panic!("{space} {deep:?} {end:?}")
             };
             assert!(space || *found == node, "{error}");
@@ -258,7 +258,13 @@ fn overlaps_of_bodies_with_a_side_in_common_are_seen_and_press_fits_are_let_thro
     };
     let bars = start(&scene("bar-on-bar", &["striker.mesh.max.0=0.5"]));
     assert!(
-        matches!(bars, Err(NscdError::Buried { of: "master", .. })),
+        matches!(
+            bars,
+            Err(NscdError::Overlap {
+                side: Side::Master,
+                ..
+            })
+        ),
         "{bars:?}"
     );
     assert!(start(&scene("bar-on-bar", &[])).is_ok());
@@ -282,7 +288,7 @@ fn overlaps_of_bodies_with_a_side_in_common_are_seen_and_press_fits_are_let_thro
     time: (end: 1.0, dt: 0.25, inertia: QuasiStatic),
 )"#;
     let fit = run(&scene_text(collar, &[]));
-    assert!(fit.totals.buried.is_none() && fit.totals.max_penetration < 1e-12);
+    assert!(fit.totals.overlap.is_none() && fit.totals.max_penetration < 1e-12);
 }
 
 /// A bar so soft that it bulges over the rim of the one that it hits goes on beside and through it: nothing holds it there, but
@@ -305,11 +311,11 @@ fn nodes_that_came_in_through_a_side_are_told_at_the_end() {
 )"#;
     let run = try_run(&scene_text(text, &[]));
     assert!(run.end.is_ok(), "{:?}", run.end);
-    let buried = run.totals.buried.unwrap();
-    assert_eq!(buried.nodes, 2);
+    let overlap = run.totals.overlap.unwrap();
+    assert_eq!(overlap.nodes, 2);
     // Half of the bar is .1 m thick.
-    assert!(buried.depth > 0.03 && buried.depth < 0.1, "{buried:?}");
-    assert!(run.totals.max_penetration >= buried.depth);
+    assert!(overlap.depth > 0.03 && overlap.depth < 0.1, "{overlap:?}");
+    assert!(run.totals.max_penetration >= overlap.depth);
 }
 
 /// Gravity that pulls two blocks through each other at the velocity level, which keeps overlaps: a corner that slips in round the

@@ -347,13 +347,14 @@ impl Observer for Auditor<'_> {
         if let Err(fault) = self.audit(state, report, totals) {
             let fault = format!(
                 "t = {:e} s, step {}: {fault}",
-                state.time, stepper.counters.steps
+                state.time,
+                stepper.counters().steps
             );
             self.fault = Some(fault.clone());
             return Err(fault.into());
         }
         self.before = state.clone();
-        if stepper.counters.newton_iterations > MOST_ITERATIONS {
+        if stepper.counters().newton_iterations > MOST_ITERATIONS {
             self.over_budget = true;
             return Err("over budget".into());
         }

@@ -161,9 +161,9 @@ fn one(text: &str, stopwatch: &Stopwatch) -> Found {
     Found {
         end,
         worst: auditor.worst,
-        steps: stepper.counters.steps,
-        rejected: stepper.counters.rejected_steps,
-        iterations: stepper.counters.newton_iterations,
+        steps: stepper.counters().steps,
+        rejected: stepper.counters().rejected_steps,
+        iterations: stepper.counters().newton_iterations,
         cpu: stopwatch.cpu_s(),
     }
 }

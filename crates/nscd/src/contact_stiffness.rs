@@ -1,44 +1,44 @@
-//! Closed contacts as springs, lent to a tangent that is not definite without them.
+//! The stiffness of closed contacts, added to a tangent that is not definite without it: the augmentation of augmented
+//! Lagrangians.
 //!
 //! A pressed surface is held by what it touches; its tangent alone may well be indefinite, because the stress under it would make
-//! it buckle if nothing were there. A spring along the normal of a closed contact changes nothing of the solution: there the
+//! it buckle if nothing were there. A stiffness along the normal of a closed contact changes nothing of the solution: there the
 //! normal motion is known beforehand, it closes what gap is left.
 
 use contact_bipotential::{Contact, ContactKey, ContactMap};
 use nalgebra::Vector3;
 
-use crate::trial::Trial;
+use crate::iterate::Iterate;
 
-/// Stiffness of a spring over the largest diagonal entry of its node [-].
+/// Stiffness of a contact over the largest diagonal entry of its node \[-\].
 const STIFFNESS: f64 = 10.0;
 
-/// A spring along the normal of a contact.
+/// A stiffness along the normal of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Brace {
+pub(crate) struct ContactStiffness {
     key: ContactKey,
     /// Slave node.
     node: u32,
     normal: Vector3<f64>,
-    /// Zero until it is in a matrix [N/m].
+    /// Zero until it is in a matrix \[N/m\].
     stiffness: f64,
 }
 
 /// The pressed contacts with rigid masters. A deformable master would couple the matrices of two bodies.
-pub(crate) fn braces(trial: &Trial, cone: usize) -> Vec<Brace> {
-    let forces = trial.r.chunks_exact(cone);
-    let pressed = trial.map.contacts.iter().zip(forces);
-    let pressed = pressed.filter(|(c, r)| r[cone - 1] > 0.0 && c.stencil.nodes().len() == 1);
-    let brace = |(c, _): (&Contact, &[f64])| Brace {
+pub(crate) fn contact_stiffness(iterate: &Iterate) -> Vec<ContactStiffness> {
+    let contacts = iterate.map.contacts.iter().enumerate();
+    let pressed = contacts.filter(|(k, c)| iterate.is_pressed(*k) && c.stencil.nodes().len() == 1);
+    let along_normal = |(_, c): (usize, &Contact)| ContactStiffness {
         key: c.key(),
         node: c.slave,
         normal: c.normal(),
         stiffness: 0.0,
     };
-    pressed.map(brace).collect()
+    pressed.map(along_normal).collect()
 }
 
-impl Brace {
-    /// Adds the spring to a matrix: `diagonal(i)` is its entry of dof `i`, zero where that is no unknown, and
+impl ContactStiffness {
+    /// Adds the stiffness to a matrix: `diagonal(i)` is its entry of dof `i`, zero where that is no unknown, and
     /// `add(i, j, value)` adds to one with `i >= j` among unknowns.
     pub(crate) fn enter(
         &mut self,
@@ -57,7 +57,7 @@ impl Brace {
         }
     }
 
-    /// What the spring does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no force.
+    /// What the stiffness does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no force.
     pub(crate) fn load(&self, map: &ContactMap, x: &[f64], r: &[f64], rhs: &mut [f64]) {
         let Some(k) = map.find(self.key) else {
             return;
@@ -102,19 +102,19 @@ mod tests {
     }
 
     #[test]
-    fn a_spring_makes_the_matrix_definite_and_leaves_the_solution() {
+    fn contact_stiffness_makes_the_matrix_definite_and_leaves_the_solution() {
         let gap = 0.03;
         let (map, n) = pressed(gap);
         // Indefinite, but not along the surface.
         let tangent = [[1.0, -2.0], [-2.0, -0.5]];
         let mut matrix = tangent;
-        let mut brace = Brace {
+        let mut stiffness = ContactStiffness {
             key: ContactKey::new(0, 3),
             node: 1,
             normal: map.contacts[0].normal(),
             stiffness: 0.0,
         };
-        brace.enter(
+        stiffness.enter(
             2,
             |d| tangent[d - 2][d - 2],
             |i, j, value| {
@@ -128,8 +128,8 @@ mod tests {
         assert!(det(tangent) < 0.0 && det(matrix) > 0.0 && matrix[0][0] > 0.0);
         let load = [0.7, -0.2];
         let mut rhs = [0.0, 0.0, load[0], load[1]];
-        brace.load(&map, &[gap], &[5.0], &mut rhs);
-        // Correction and force with n . du = -gap, with and without the spring.
+        stiffness.load(&map, &[gap], &[5.0], &mut rhs);
+        // Correction and force with n . du = -gap, with and without the stiffness.
         let constrained = |a: [[f64; 2]; 2], b: [f64; 2]| {
             let (free, unit) = (solve(a, b), solve(a, n));
             let along = |x: [f64; 2]| n[0] * x[0] + n[1] * x[1];
@@ -146,17 +146,17 @@ mod tests {
     }
 
     #[test]
-    fn a_contact_without_force_has_no_spring_in_the_load() {
+    fn a_contact_without_force_has_no_stiffness_in_the_load() {
         let (map, _) = pressed(0.1);
-        let brace = Brace {
+        let stiffness = ContactStiffness {
             key: ContactKey::new(0, 3),
             node: 1,
             normal: map.contacts[0].normal(),
             stiffness: 1.0,
         };
         let mut rhs = [0.0; 4];
-        brace.load(&map, &[0.1], &[0.0], &mut rhs);
-        brace.load(
+        stiffness.load(&map, &[0.1], &[0.0], &mut rhs);
+        stiffness.load(
             &ContactMap::new(Vec::new(), 2, Cone::Frictionless),
             &[],
             &[],

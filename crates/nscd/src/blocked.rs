@@ -1,22 +1,24 @@
-//! Contacts that cannot slip one way because both sides are held, as on a plane of symmetry.
+//! Contacts that cannot slip one way because both sides are blocked, as on a plane of symmetry.
 
+use contact_bipotential::Cone;
 use faer::Mat;
 
-/// Compliance of a contact along its stiffest direction, relative to the others, below which it counts as held [-].
-const HELD: f64 = 1e-11;
-/// Largest part of that direction along the normal: beyond it is the gap that is held, not the slip [-].
+/// Compliance of a contact along its stiffest direction, relative to the others, below which it counts as blocked \[-\].
+const BLOCKED: f64 = 1e-11;
+/// Largest part of that direction along the normal: beyond it is the gap that is blocked, not the slip \[-\].
 const UPRIGHT: f64 = 0.1;
 
 /// A contact and the tangential direction in which nothing gives and nothing slips.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Held {
+pub(crate) struct BlockedDirection {
     row: usize,
     along: [f64; 2],
 }
 
-/// The held directions of a contact problem, at most one a contact. On a curved surface the normal at a plane of symmetry
-/// may lean out of the plane, so that the direction that is held is only nearly a tangent.
-pub(crate) fn held(w: &Mat<f64>, q: &[f64], cone: usize) -> Vec<Held> {
+/// The blocked directions of a contact problem, at most one a contact. On a curved surface the normal at a plane of symmetry may
+/// lean out of the plane, so that the direction that is blocked is only nearly a tangent.
+pub(crate) fn blocked_directions(w: &Mat<f64>, q: &[f64], cone: Cone) -> Vec<BlockedDirection> {
+    let cone = cone.dim();
     let longest = q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let found = q.chunks_exact(cone).enumerate().filter_map(|(k, x)| {
         let row = cone * k;
@@ -28,11 +30,11 @@ pub(crate) fn held(w: &Mat<f64>, q: &[f64], cone: usize) -> Vec<Held> {
         }?;
         let moves: f64 = (0..cone).map(|i| stiff[i] * x[i]).sum();
         let size = stiff[0].hypot(if cone == 3 { stiff[1] } else { 0.0 });
-        if stiff[cone - 1].abs() > UPRIGHT || moves.abs() > HELD * longest {
+        if stiff[cone - 1].abs() > UPRIGHT || moves.abs() > BLOCKED * longest {
             return None;
         }
         let second = if cone == 3 { stiff[1] / size } else { 0.0 };
-        Some(Held {
+        Some(BlockedDirection {
             row,
             along: [stiff[0] / size, second],
         })
@@ -40,13 +42,13 @@ pub(crate) fn held(w: &Mat<f64>, q: &[f64], cone: usize) -> Vec<Held> {
     found.collect()
 }
 
-/// Takes the held directions out of a contact problem: no force along them, no slip.
+/// Takes the blocked directions out of a contact problem: no force along them, no slip.
 ///
 /// Friction there does no work, and the law leaves it open between the bounds of the cone. A solver would leave it anywhere,
 /// where it uses up the friction that the other tangent needs.
-pub(crate) fn take_out(held: &[Held], w: &mut Mat<f64>, q: &mut [f64], cone: usize) {
-    let tangents = cone - 1;
-    for Held { row, along } in held {
+pub(crate) fn take_out(blocked: &[BlockedDirection], w: &mut Mat<f64>, q: &mut [f64], cone: Cone) {
+    let tangents = cone.dim() - 1;
+    for BlockedDirection { row, along } in blocked {
         let (row, along) = (*row, &along[..tangents]);
         let normal = w[(row + tangents, row + tangents)];
         for j in 0..w.ncols() {
@@ -71,7 +73,7 @@ fn stiffest_of_two(w: impl Fn(usize, usize) -> f64) -> Option<[f64; 3]> {
     let rest = [[c, -b], [-b, a]];
     let best = usize::from(rest[1][1] > rest[0][0]);
     let length = rest[best][0].hypot(rest[best][1]);
-    (length > 0.0 && a * c - b * b <= HELD * size * size)
+    (length > 0.0 && a * c - b * b <= BLOCKED * size * size)
         .then(|| [rest[best][0] / length, rest[best][1] / length, 0.0])
 }
 
@@ -94,8 +96,8 @@ fn stiffest_of_three(w: impl Fn(usize, usize) -> f64) -> Option<[f64; 3]> {
     let best = larger(larger(0, 1), 2);
     let column = [0, 1, 2].map(|i| cofactor(i, best));
     let length = column.iter().map(|x| x * x).sum::<f64>().sqrt();
-    // Two held directions leave no cofactors to tell them by.
-    let one = minors > HELD * size * size && determinant <= HELD * size * minors;
+    // Two blocked directions leave no cofactors to tell them by.
+    let one = minors > BLOCKED * size * size && determinant <= BLOCKED * size * minors;
     one.then(|| column.map(|x| x / length))
 }
 
@@ -105,9 +107,9 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Two contacts; the first is held along `e`, which leans out of its tangent plane a little.
+        /// Two contacts; the first is blocked along `e`, which leans out of its tangent plane a little.
         #[test]
-        fn only_the_held_direction_is_taken_out(
+        fn only_the_blocked_direction_is_taken_out(
             angle in 0.0..6.2_f64, lean in -0.05..0.05_f64, slip in -1.0..1.0_f64,
             root in prop::collection::vec(-1.0..1.0_f64, 36),
         ) {
@@ -122,13 +124,13 @@ mod tests {
             let (mut w, mut q) = (whole.clone(), vec![0.3, -0.1, slip, 0.2, 0.1, -0.4]);
             let moves: f64 = (0..3).map(|i| e[i] * q[i]).sum();
             (0..3).for_each(|i| q[i] -= moves * e[i]);
-            let found = held(&w, &q, 3);
+            let found = blocked_directions(&w, &q, Cone::Spatial);
             prop_assert_eq!(found.len(), 1);
             prop_assert_eq!(found[0].row, 0);
             let along = found[0].along;
             prop_assert!((along[0] * e[1] - along[1] * e[0]).abs() < 1e-6);
             let before = q.clone();
-            take_out(&found, &mut w, &mut q, 3);
+            take_out(&found, &mut w, &mut q, Cone::Spatial);
             let push = [along[0], along[1], 0.0, 0.0, 0.0, 0.0];
             for i in 0..6 {
                 // A force along it moves that one slip alone.
@@ -142,33 +144,33 @@ mod tests {
             prop_assert_eq!(&q[2..], &before[2..]);
             // Both sides driven along each other: there is slip, and friction works.
             let driven: Vec<f64> = before.iter().zip(e.iter().chain(&[0.0; 3])).map(|(q, e)| q + 0.1 * e).collect();
-            prop_assert!(held(&whole, &driven, 3).is_empty());
+            prop_assert!(blocked_directions(&whole, &driven, Cone::Spatial).is_empty());
         }
 
         #[test]
         fn soft_contacts_are_left_alone(root in prop::collection::vec(-1.0..1.0_f64, 9)) {
             let root = Mat::from_fn(3, 3, |i, j| root[3 * i + j] + if i == j { 3.0 } else { 0.0 });
             let w = &root * root.transpose();
-            prop_assert!(held(&w, &[0.0, 0.0, -1.0], 3).is_empty());
+            prop_assert!(blocked_directions(&w, &[0.0, 0.0, -1.0], Cone::Spatial).is_empty());
         }
     }
 
     #[test]
-    fn in_the_plane_the_tangent_is_held_or_not() {
+    fn in_the_plane_the_tangent_is_blocked_or_not() {
         let w = |tangent: f64| {
             let mut w = Mat::<f64>::identity(2, 2);
             w[(0, 0)] = tangent;
             w
         };
-        let found = held(&w(0.0), &[0.0, -1.0], 2);
+        let found = blocked_directions(&w(0.0), &[0.0, -1.0], Cone::Planar);
         assert_eq!(
             found,
-            [Held {
+            [BlockedDirection {
                 row: 0,
                 along: [1.0, 0.0]
             }]
         );
-        assert!(held(&w(0.01), &[0.0, -1.0], 2).is_empty());
-        assert!(held(&w(0.0), &[0.5, -1.0], 2).is_empty());
+        assert!(blocked_directions(&w(0.01), &[0.0, -1.0], Cone::Planar).is_empty());
+        assert!(blocked_directions(&w(0.0), &[0.5, -1.0], Cone::Planar).is_empty());
     }
 }

@@ -1,0 +1,89 @@
+//! Slip and gap: the local variable of the contact law, at an iterate.
+
+use contact_bipotential::local::local_axes;
+use contact_bipotential::{Contact, ContactMap};
+
+use crate::flat::difference;
+use crate::scheme::ContactLevel;
+use crate::step_problem::StepProblem;
+
+/// Local variable of every contact of `map` at an iterate \[m\]: slip of the step and gap, or at the velocity level the end
+/// velocity times the displacement that a unit of it stands for.
+pub(crate) fn local_variable(
+    step: &StepProblem<'_>,
+    map: &ContactMap,
+    u: &[f64],
+    v: &[f64],
+) -> Vec<f64> {
+    let cone = map.cone().dim();
+    match step.model.scheme.contact {
+        ContactLevel::Position => {
+            let mut x = relative_displacement(step, map, u);
+            for (c, x) in map.contacts.iter().zip(x.chunks_exact_mut(cone)) {
+                x[cone - 1] = c.gap;
+                take_off_turn(step, c, x);
+            }
+            x
+        }
+        ContactLevel::Velocity => {
+            let rate = step.model.scheme.velocity_rate(step.dt);
+            let start = relative_velocity(step, map, &step.now.v);
+            let mut x = relative_velocity(step, map, v);
+            for (k, c) in map.contacts.iter().enumerate() {
+                let n = cone * k + cone - 1;
+                x[n] += step.model.interfaces[c.interface].restitution * start[n].min(0.0);
+            }
+            x.iter_mut().for_each(|x| *x /= rate);
+            x
+        }
+    }
+}
+
+/// An open bond that turns as a whole does not slip: the node goes round with the normal, `g_0 (n_1 - n_0)`.
+fn take_off_turn(step: &StepProblem<'_>, contact: &Contact, x: &mut [f64]) {
+    if step.model.interfaces[contact.interface].adhesion.is_none() {
+        return;
+    }
+    let Some(before) = step.now.contact(contact.key()) else {
+        return;
+    };
+    let last = x.len() - 1;
+    for (x, axis) in x[..last].iter_mut().zip(local_axes(last + 1)) {
+        let turn = contact.frame.column(*axis).dot(&before.frame.column(2));
+        *x += before.gap.max(0.0) * turn;
+    }
+}
+
+/// Displacement of the slave relative to the master in the step, in local frames \[m\].
+pub(crate) fn relative_displacement(
+    step: &StepProblem<'_>,
+    map: &ContactMap,
+    u: &[f64],
+) -> Vec<f64> {
+    relative(map, &difference(u, &step.now.u), 1.0)
+}
+
+/// Velocity of the slave relative to the master, in local frames \[m/s\].
+pub(crate) fn relative_velocity(step: &StepProblem<'_>, map: &ContactMap, v: &[f64]) -> Vec<f64> {
+    relative(map, v, 1.0 / step.dt)
+}
+
+/// `H w` minus `obstacle` times the obstacle's displacement in the step.
+fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
+    let mut x = vec![0.0; map.row_count()];
+    let mut offset = x.clone();
+    map.apply(w, &mut x);
+    map.slip_offsets(&mut offset);
+    let rows = x.iter_mut().zip(&offset);
+    rows.for_each(|(x, o)| *x += obstacle * o);
+    x
+}
+
+/// A local vector in `(t1, t2, n)`; tangents that it does not have are zero.
+pub(crate) fn spatial(x: &[f64]) -> [f64; 3] {
+    let mut full = [0.0; 3];
+    for (x, axis) in x.iter().zip(local_axes(x.len())) {
+        full[*axis] = *x;
+    }
+    full
+}
