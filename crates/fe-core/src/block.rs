@@ -9,7 +9,7 @@ mod solid_block;
 
 use std::fmt::Debug;
 
-use hyperelastic::Material;
+use hyperelastic::{Material, Symmetric};
 
 use crate::element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
 use crate::error::FeError;
@@ -20,10 +20,11 @@ pub use solid_block::SolidBlock;
 
 /// Stress and volume change of one element.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct ElementState {
     /// Cauchy stress averaged over the current volume \[Pa\]: 11 22 33 12 13 23. In the plane 33 is the stress
     /// across it: along z, or the hoop stress.
-    pub cauchy: [f64; 6],
+    pub cauchy: Symmetric,
     /// Von Mises stress of the averaged tensor \[Pa\].
     pub von_mises: f64,
     /// Smallest `J = det F` of the quadrature points \[-\].

@@ -13,6 +13,8 @@ pub(crate) mod quadratic;
 
 use std::fmt::Debug;
 
+use nalgebra::Matrix3;
+
 pub use hex8::Hex8;
 pub use hex27::Hex27;
 pub use quad4::Quad4;
@@ -71,22 +73,22 @@ pub fn corner_points<const N: usize>(points: &[Vector3<f64>], cell: &[u32]) -> [
     std::array::from_fn(|a| points[cell[a] as usize].into())
 }
 
-/// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, stored `[i][j]`. In the plane the third
+/// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, row `i`, column `j`. In the plane the third
 /// coordinate is ignored and its row and column are those of the identity.
-pub fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> [[f64; 3]; 3]
+pub fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> Matrix3<f64>
 where
     E: Element<Nodal = [f64; N]>,
 {
     let dn = E::shape_derivatives(xi);
     let dim = E::KIND.dim();
-    let mut jac = [[0.0; 3]; 3];
+    let mut jac = Matrix3::zeros();
     if dim == 2 {
-        jac[2][2] = 1.0;
+        jac[(2, 2)] = 1.0;
     }
     for i in 0..dim {
         for j in 0..dim {
             for a in 0..N {
-                jac[i][j] += points[a][i] * dn[j][a];
+                jac[(i, j)] += points[a][i] * dn[j][a];
             }
         }
     }
@@ -105,14 +107,17 @@ where
     E: Element<Nodal = [f64; N]>,
 {
     let dn = E::shape_derivatives(xi);
-    let (inverse, det) = crate::kinematics::inverse(&jacobian::<E, N>(points, xi));
+    let map = jacobian::<E, N>(points, xi);
+    let inverse = map.try_inverse().unwrap_or(Matrix3::repeat(f64::NAN));
     let mut gradients = [[0.0; N]; 3];
     for (j, row) in gradients.iter_mut().enumerate() {
         for a in 0..N {
-            row[a] = dn[0][a] * inverse[0][j] + dn[1][a] * inverse[1][j] + dn[2][a] * inverse[2][j];
+            row[a] = dn[0][a] * inverse[(0, j)]
+                + dn[1][a] * inverse[(1, j)]
+                + dn[2][a] * inverse[(2, j)];
         }
     }
-    (gradients, det)
+    (gradients, map.determinant())
 }
 
 /// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3; m^2 in the plane\].
@@ -125,7 +130,7 @@ where
 {
     let corners = corner_points::<N>(points, cell);
     E::rule().iter().enumerate().find_map(|(q, point)| {
-        let det = crate::kinematics::determinant(&jacobian::<E, N>(&corners, &point.xi));
+        let det = jacobian::<E, N>(&corners, &point.xi).determinant();
         let good = det > 0.0 && det.is_finite();
         (!good).then_some((q, det))
     })

@@ -1,10 +1,12 @@
 //! Blatz-Ko: compressible foam-like rubber with a single parameter.
 
 use crate::elastic_constants::ElasticConstants;
-use crate::material::{Inverted, Material, Response};
+use crate::inverted::Inverted;
+use crate::material::{Material, Response};
 use crate::parameter::ParameterError;
 use crate::real::Real;
-use crate::tensor::{self, StretchInvariants};
+use crate::stretch::StretchInvariants;
+use crate::tensor::{self, Symmetric, Tangent};
 
 /// `W = G/2 (I_2/I_3 + 2 sqrt(I_3) - 5)` \[Hu2022, eq. 37\], `S = G (J C^-1 - C^-2)` \[Hu2022, eq. 39\].
 ///
@@ -41,22 +43,15 @@ impl BlatzKo {
     }
 
     #[inline]
-    fn stress_of(&self, j: f64, inverse: &[f64; 6], inverse_squared: &[f64; 6]) -> [f64; 6] {
-        let mut s = [0.0; 6];
-        for i in 0..6 {
-            s[i] = self.elastic.shear_modulus() * (j * inverse[i] - inverse_squared[i]);
-        }
-        s
+    fn stress_of(&self, j: f64, inverse: &Symmetric, inverse_squared: &Symmetric) -> Symmetric {
+        (inverse * j - inverse_squared) * self.elastic.shear_modulus()
     }
 
     #[inline]
-    fn tangent_of(&self, j: f64, inverse: &[f64; 6], inverse_squared: &[f64; 6]) -> [[f64; 6]; 6] {
+    fn tangent_of(&self, j: f64, inverse: &Symmetric, inverse_squared: &Symmetric) -> Tangent {
         let shear = self.elastic.shear_modulus();
         // The three products (.) share a factor C^-1, and so are one.
-        let mut other = [0.0; 6];
-        for i in 0..6 {
-            other[i] = shear * (2.0 * inverse_squared[i] - j * inverse[i]);
-        }
+        let other = (inverse_squared * 2.0 - inverse * j) * shear;
         let mut d = tensor::symmetric_product(inverse, &other);
         tensor::add_dyad(&mut d, shear * j, inverse);
         d
@@ -65,12 +60,12 @@ impl BlatzKo {
 
 impl Material for BlatzKo {
     #[inline]
-    fn energy<T: Real>(&self, c: &[T; 6]) -> Result<T, Inverted> {
+    fn energy<T: Real>(&self, c: &Symmetric<T>) -> Result<T, Inverted> {
         Ok(self.energy_of(&StretchInvariants::new(c)?))
     }
 
     #[inline]
-    fn stress(&self, c: &[f64; 6]) -> Result<(f64, [f64; 6]), Inverted> {
+    fn stress(&self, c: &Symmetric) -> Result<(f64, Symmetric), Inverted> {
         let invariants = StretchInvariants::new(c)?;
         let inverse = invariants.inverse();
         let stress = self.stress_of(invariants.j, &inverse, &tensor::square(&inverse));
@@ -78,15 +73,15 @@ impl Material for BlatzKo {
     }
 
     #[inline]
-    fn response(&self, c: &[f64; 6]) -> Result<Response, Inverted> {
+    fn response(&self, c: &Symmetric) -> Result<Response, Inverted> {
         let invariants = StretchInvariants::new(c)?;
         let inverse = invariants.inverse();
         let inverse_squared = tensor::square(&inverse);
-        Ok(Response {
-            energy: self.energy_of(&invariants),
-            stress: self.stress_of(invariants.j, &inverse, &inverse_squared),
-            tangent: self.tangent_of(invariants.j, &inverse, &inverse_squared),
-        })
+        Ok(Response::new(
+            self.energy_of(&invariants),
+            self.stress_of(invariants.j, &inverse, &inverse_squared),
+            self.tangent_of(invariants.j, &inverse, &inverse_squared),
+        ))
     }
 
     fn small_strain_moduli(&self) -> ElasticConstants {

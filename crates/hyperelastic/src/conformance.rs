@@ -16,14 +16,25 @@ mod probe;
 mod states;
 mod violation;
 
+use nalgebra::Matrix3;
+
+use crate::deformation::{cauchy, first_piola, right_cauchy_green};
 use crate::material::Material;
-use crate::tensor;
+use crate::tensor::{self, Symmetric};
 use probe::Probe;
-pub use states::{cauchy, first_piola, right_cauchy_green, rotation};
+pub use states::rotation;
 pub use violation::{Component, Property, Violation};
 
 /// What the battery demands.
+///
+/// ```
+/// use hyperelastic::conformance::Options;
+///
+/// let foam = Options::default().with_stretches([0.1, 10.0]).with_tolerance(1e-8);
+/// assert_eq!(foam.states, Options::default().states);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// Number of general states, beside the special ones (reference, equal stretches, tiny strains).
     pub states: usize,
@@ -31,10 +42,57 @@ pub struct Options {
     pub stretches: [f64; 2],
     /// Whether `W(Q C Q^T) = W(C)`, and Hooke's law with two moduli at the reference, are demanded.
     pub isotropic: bool,
-    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated states [-].
+    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated states \[-\].
     pub tolerance: f64,
-    /// Allowed relative difference from central differences [-].
+    /// Allowed relative difference from central differences \[-\].
     pub difference_tolerance: f64,
+    /// Allowed `|D_ij - D_ji|`, relative to the largest component of `S` and `D` \[-\]: the round-off of some tens of terms
+    /// that are summed in different orders, 64 units of round-off.
+    pub symmetry_tolerance: f64,
+}
+
+impl Options {
+    /// With another number of general states.
+    #[must_use]
+    pub fn with_states(mut self, states: usize) -> Self {
+        self.states = states;
+        self
+    }
+
+    /// With another range of the principal stretches \[-\].
+    #[must_use]
+    pub fn with_stretches(mut self, stretches: [f64; 2]) -> Self {
+        self.stretches = stretches;
+        self
+    }
+
+    /// For a law that is not isotropic.
+    #[must_use]
+    pub fn anisotropic(mut self) -> Self {
+        self.isotropic = false;
+        self
+    }
+
+    /// With another tolerance of what agrees up to round-off \[-\].
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// With another tolerance of central differences \[-\].
+    #[must_use]
+    pub fn with_difference_tolerance(mut self, tolerance: f64) -> Self {
+        self.difference_tolerance = tolerance;
+        self
+    }
+
+    /// With another tolerance of the symmetry of the tangent \[-\]: for laws whose terms cancel.
+    #[must_use]
+    pub fn with_symmetry_tolerance(mut self, tolerance: f64) -> Self {
+        self.symmetry_tolerance = tolerance;
+        self
+    }
 }
 
 impl Default for Options {
@@ -45,6 +103,7 @@ impl Default for Options {
             isotropic: true,
             tolerance: 1e-10,
             difference_tolerance: 1e-5,
+            symmetry_tolerance: 64.0 * f64::EPSILON,
         }
     }
 }
@@ -53,10 +112,16 @@ impl Default for Options {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ClosedForm {
     /// `P = F S`: force per reference area, `P_ij` on the face with normal `j`.
-    FirstPiola([[f64; 3]; 3]),
+    FirstPiola(Matrix3<f64>),
     /// `sigma = F S F^T/J`: force per deformed area, 11 22 33 12 13 23.
-    Cauchy([f64; 6]),
+    Cauchy(Symmetric),
 }
+
+/// Allowed energy and stress at the reference, relative to the largest modulus \[-\]: what should be zero is some round-offs.
+const REFERENCE_TOLERANCE: f64 = 1e-14;
+/// Allowed relative difference from the linear law at a strain of 1e-7 \[-\]: a hundred times the second-order terms of a
+/// law with moderate curvature, a hundredth of what an energy that has lost its digits shows.
+const SMALL_STRAIN_TOLERANCE: f64 = 1e-4;
 
 /// Runs the whole battery on a fixed set of states.
 ///
@@ -78,19 +143,14 @@ pub fn check<M: Material>(material: &M, options: &Options) -> Result<(), Violati
 pub fn check_state<M: Material>(
     material: &M,
     stretches: [f64; 3],
-    rotation: &[[f64; 3]; 3],
+    rotation: &Matrix3<f64>,
     options: &Options,
 ) -> Result<(), Violation> {
-    let principal = [
-        stretches[0].powi(2),
-        stretches[1].powi(2),
-        stretches[2].powi(2),
-        0.0,
-        0.0,
-        0.0,
-    ];
+    let [c1, c2, c3] = stretches.map(|l| l.powi(2));
+    let principal = Symmetric::new(c1, c2, c3, 0.0, 0.0, 0.0);
     let probe = Probe::new(material, states::rotate(&principal, rotation))?;
     probe.check_methods(options)?;
+    probe.check_symmetry(options)?;
     probe.check_derivatives(options)?;
     if options.isotropic {
         Probe::new(material, principal)?.check_isotropy(&probe, rotation, options)
@@ -105,7 +165,7 @@ pub fn check_state<M: Material>(
 /// The first [`Violation`] found.
 pub fn check_homogeneous<M: Material>(
     material: &M,
-    f: &[[f64; 3]; 3],
+    f: &Matrix3<f64>,
     expected: &ClosedForm,
     tolerance: f64,
 ) -> Result<(), Violation> {
@@ -115,12 +175,18 @@ pub fn check_homogeneous<M: Material>(
     match expected {
         ClosedForm::FirstPiola(expected) => probe.same_stresses(
             Property::ClosedForm,
-            first_piola(f, stress).as_flattened(),
-            expected.as_flattened(),
+            first_piola(f, stress).transpose().as_slice(),
+            expected.transpose().as_slice(),
             scale,
         ),
         ClosedForm::Cauchy(expected) => {
-            probe.same_stresses(Property::ClosedForm, &cauchy(f, stress), expected, scale)
+            let found = cauchy(f, stress);
+            probe.same_stresses(
+                Property::ClosedForm,
+                found.as_slice(),
+                expected.as_slice(),
+                scale,
+            )
         }
     }
 }
@@ -128,7 +194,7 @@ pub fn check_homogeneous<M: Material>(
 fn check_refusals<M: Material>(material: &M) -> Result<(), Violation> {
     for i in 0..6 {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            let mut c = [1.1, 0.9, 1.2, 0.1, -0.1, 0.2];
+            let mut c = Symmetric::new(1.1, 0.9, 1.2, 0.1, -0.1, 0.2);
             c[i] = bad;
             let refused = material.energy(&c).is_err()
                 && material.stress(&c).is_err()
@@ -158,7 +224,7 @@ fn check_refusals<M: Material>(material: &M) -> Result<(), Violation> {
 
 fn check_reference<M: Material>(material: &M, options: &Options) -> Result<(), Violation> {
     let reference = Probe::new(material, tensor::IDENTITY)?;
-    let allowed = 1e-14 * reference.scale;
+    let allowed = REFERENCE_TOLERANCE * reference.scale;
     reference.same(
         Property::ReferenceHasNoEnergy,
         Component::Energy,
@@ -168,7 +234,7 @@ fn check_reference<M: Material>(material: &M, options: &Options) -> Result<(), V
     )?;
     reference.same_stresses(
         Property::ReferenceHasNoStress,
-        &reference.response.stress,
+        reference.response.stress.as_slice(),
         &[0.0; 6],
         allowed,
     )?;
@@ -184,9 +250,8 @@ fn check_reference<M: Material>(material: &M, options: &Options) -> Result<(), V
         )?;
     }
     for c in states::small_strains() {
-        let e = tensor::green_lagrange(&c);
-        let engineering = [e[0], e[1], e[2], 2.0 * e[3], 2.0 * e[4], 2.0 * e[5]];
-        let linear = 0.5 * states::dot(&engineering, &states::times(tangent, &engineering));
+        let strain = tensor::engineering(&tensor::green_lagrange(&c));
+        let linear = 0.5 * strain.dot(&(tangent * strain));
         let probe = Probe::new(material, c)?;
         let property = Property::EnergyResolvesSmallStrain;
         probe.same(
@@ -194,7 +259,7 @@ fn check_reference<M: Material>(material: &M, options: &Options) -> Result<(), V
             Component::Energy,
             probe.response.energy,
             linear,
-            1e-4 * linear,
+            SMALL_STRAIN_TOLERANCE * linear,
         )?;
     }
     Ok(())

@@ -1,7 +1,7 @@
 //! Hyperelastic laws: strain energy `W`, stress `S` and tangent `D` from the right Cauchy-Green tensor `C`.
 //!
 //! A law is a pure function of `C = F^T F`, so it is objective by construction, and knows nothing of elements, meshes or time.
-//! Everything is closed-form on fixed-size arrays.
+//! Everything is closed-form on `nalgebra`'s matrices of fixed size, which are re-exported as [`nalgebra`].
 //!
 //! | law | energy | parameters | valid |
 //! |---|---|---|---|
@@ -21,12 +21,12 @@
 //!
 //! # Example
 //! ```
-//! use hyperelastic::{BlatzKo, Material};
+//! use hyperelastic::{BlatzKo, Material, Symmetric};
 //!
 //! let foam = BlatzKo::new(10.0e6)?;
 //! // Pulled to 1.5 times its length while its width is held: C = diag(l^2, 1, 1).
 //! let l: f64 = 1.5;
-//! let response = foam.response(&[l * l, 1.0, 1.0, 0.0, 0.0, 0.0])?;
+//! let response = foam.response(&Symmetric::new(l * l, 1.0, 1.0, 0.0, 0.0, 0.0))?;
 //! // Force per reference area is l S_11 = G (1 - l^-3).
 //! assert!((l * response.stress[0] - 10.0e6 * (1.0 - l.powi(-3))).abs() < 1.0);
 //!
@@ -34,33 +34,45 @@
 //! assert!((moduli.poisson_ratio() - 0.25).abs() < 1e-15);
 //!
 //! // Inverted matter is an error, never a NaN.
-//! assert!(foam.response(&[-1.0, 1.0, 1.0, 0.0, 0.0, 0.0]).is_err());
+//! assert!(foam.response(&Symmetric::new(-1.0, 1.0, 1.0, 0.0, 0.0, 0.0)).is_err());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # Adding a law
-//! One file with an implementation of [`Material`], and a test that calls the battery `conformance::check` (feature `conformance`, on by default).
+//! One file with an implementation of [`Material`], and a test that calls the battery `conformance::check` (feature `conformance`, off by default).
 
 pub mod tensor;
 
 #[cfg(feature = "conformance")]
 pub mod conformance;
 
+/// The example of the README is a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod blatz_ko;
+mod deformation;
 mod elastic_constants;
+mod inverted;
 mod material;
 mod neo_hookean;
 mod parameter;
 mod real;
 mod saint_venant_kirchhoff;
+mod stretch;
 mod three_e;
 
 pub use blatz_ko::BlatzKo;
+pub use deformation::{cauchy, first_piola, right_cauchy_green, von_mises};
 pub use elastic_constants::ElasticConstants;
-pub use material::{Inverted, Material, Response};
+pub use inverted::Inverted;
+pub use material::{Material, Response};
+pub use nalgebra;
 pub use neo_hookean::NeoHookean;
 pub use parameter::ParameterError;
 pub use real::Real;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
-pub use tensor::StretchInvariants;
+pub use stretch::{StretchInvariants, require_finite};
+pub use tensor::{Symmetric, Tangent};
 pub use three_e::ThreeE;

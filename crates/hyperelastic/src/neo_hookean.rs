@@ -1,10 +1,12 @@
 //! Compressible neo-Hookean law with the squared logarithm of `J`.
 
 use crate::elastic_constants::ElasticConstants;
-use crate::material::{Inverted, Material, Response};
+use crate::inverted::Inverted;
+use crate::material::{Material, Response};
 use crate::parameter::{ParameterError, inside_closed};
 use crate::real::Real;
-use crate::tensor::{self, StretchInvariants};
+use crate::stretch::StretchInvariants;
+use crate::tensor::{self, Symmetric, Tangent};
 
 /// `W = G/2 (I_1 - 3 - 2 ln J) + lambda/2 (ln J)^2`, `S = G (I - C^-1) + lambda ln J C^-1`.
 ///
@@ -39,21 +41,17 @@ impl NeoHookean {
     }
 
     #[inline]
-    fn stress_of(&self, ln_det_c: f64, inverse: &[f64; 6]) -> [f64; 6] {
+    fn stress_of(&self, ln_det_c: f64, inverse: &Symmetric) -> Symmetric {
         let shear = self.elastic.shear_modulus();
         let along_inverse = 0.5 * self.elastic.lame_modulus() * ln_det_c;
-        let mut s = [0.0; 6];
-        for i in 0..6 {
-            s[i] = shear * (tensor::IDENTITY[i] - inverse[i]) + along_inverse * inverse[i];
-        }
-        s
+        (tensor::IDENTITY - inverse) * shear + inverse * along_inverse
     }
 
     #[inline]
-    fn tangent_of(&self, ln_det_c: f64, inverse: &[f64; 6]) -> [[f64; 6]; 6] {
+    fn tangent_of(&self, ln_det_c: f64, inverse: &Symmetric) -> Tangent {
         let lambda = self.elastic.lame_modulus();
         let along_inverse = self.elastic.shear_modulus() - 0.5 * lambda * ln_det_c;
-        let mut d = tensor::symmetric_product(inverse, &inverse.map(|x| along_inverse * x));
+        let mut d = tensor::symmetric_product(inverse, &(inverse * along_inverse));
         tensor::add_dyad(&mut d, lambda, inverse);
         d
     }
@@ -61,13 +59,13 @@ impl NeoHookean {
 
 impl Material for NeoHookean {
     #[inline]
-    fn energy<T: Real>(&self, c: &[T; 6]) -> Result<T, Inverted> {
+    fn energy<T: Real>(&self, c: &Symmetric<T>) -> Result<T, Inverted> {
         let invariants = StretchInvariants::new(c)?;
         Ok(self.energy_of(&invariants, invariants.ln_det_c()))
     }
 
     #[inline]
-    fn stress(&self, c: &[f64; 6]) -> Result<(f64, [f64; 6]), Inverted> {
+    fn stress(&self, c: &Symmetric) -> Result<(f64, Symmetric), Inverted> {
         let invariants = StretchInvariants::new(c)?;
         let ln_det_c = invariants.ln_det_c();
         let stress = self.stress_of(ln_det_c, &invariants.inverse());
@@ -75,15 +73,15 @@ impl Material for NeoHookean {
     }
 
     #[inline]
-    fn response(&self, c: &[f64; 6]) -> Result<Response, Inverted> {
+    fn response(&self, c: &Symmetric) -> Result<Response, Inverted> {
         let invariants = StretchInvariants::new(c)?;
         let ln_det_c = invariants.ln_det_c();
         let inverse = invariants.inverse();
-        Ok(Response {
-            energy: self.energy_of(&invariants, ln_det_c),
-            stress: self.stress_of(ln_det_c, &inverse),
-            tangent: self.tangent_of(ln_det_c, &inverse),
-        })
+        Ok(Response::new(
+            self.energy_of(&invariants, ln_det_c),
+            self.stress_of(ln_det_c, &inverse),
+            self.tangent_of(ln_det_c, &inverse),
+        ))
     }
 
     fn small_strain_moduli(&self) -> ElasticConstants {

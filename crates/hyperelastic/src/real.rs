@@ -1,7 +1,8 @@
 //! The numbers an energy is computed with.
 
-use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use nalgebra::Scalar;
 
 /// A real number, or a number that carries derivatives along.
 ///
@@ -10,7 +11,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// using the law's own formulas for the stress and the tangent.
 pub trait Real:
     Copy
-    + Debug
+    + Scalar
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>

@@ -1,10 +1,12 @@
 //! Saint Venant-Kirchhoff: Hooke's law between `S` and `E`.
 
 use crate::elastic_constants::ElasticConstants;
-use crate::material::{Inverted, Material, Response};
+use crate::inverted::Inverted;
+use crate::material::{Material, Response};
 use crate::parameter::ParameterError;
 use crate::real::Real;
-use crate::tensor;
+use crate::stretch::require_finite;
+use crate::tensor::{self, Symmetric};
 
 /// `W = lambda/2 (tr E)^2 + G E:E = K/2 (tr E)^2 + G tr(E_d^2)` \[Feng2007, eq. 19, with the trace of the square\].
 ///
@@ -26,7 +28,7 @@ impl SaintVenantKirchhoff {
     }
 
     #[inline]
-    fn energy_of_strain<T: Real>(&self, e: &[T; 6]) -> T {
+    fn energy_of_strain<T: Real>(&self, e: &Symmetric<T>) -> T {
         let trace = tensor::trace(e);
         trace * trace * (0.5 * self.elastic.lame_modulus())
             + tensor::norm_squared(e) * self.elastic.shear_modulus()
@@ -35,32 +37,26 @@ impl SaintVenantKirchhoff {
 
 impl Material for SaintVenantKirchhoff {
     #[inline]
-    fn energy<T: Real>(&self, c: &[T; 6]) -> Result<T, Inverted> {
-        tensor::require_finite(c)?;
+    fn energy<T: Real>(&self, c: &Symmetric<T>) -> Result<T, Inverted> {
+        require_finite(c)?;
         Ok(self.energy_of_strain(&tensor::green_lagrange(c)))
     }
 
     #[inline]
-    fn stress(&self, c: &[f64; 6]) -> Result<(f64, [f64; 6]), Inverted> {
-        tensor::require_finite(c)?;
+    fn stress(&self, c: &Symmetric) -> Result<(f64, Symmetric), Inverted> {
+        require_finite(c)?;
         let e = tensor::green_lagrange(c);
         let pressure = self.elastic.lame_modulus() * tensor::trace(&e);
-        let mut s = e.map(|x| 2.0 * self.elastic.shear_modulus() * x);
-        for x in &mut s[..3] {
-            *x += pressure;
-        }
-        Ok((self.energy_of_strain(&e), s))
+        let mut stress = e * (2.0 * self.elastic.shear_modulus());
+        tensor::add_spherical(&mut stress, pressure);
+        Ok((self.energy_of_strain(&e), stress))
     }
 
     #[inline]
-    fn response(&self, c: &[f64; 6]) -> Result<Response, Inverted> {
+    fn response(&self, c: &Symmetric) -> Result<Response, Inverted> {
         let (energy, stress) = self.stress(c)?;
         let tangent = tensor::isotropic(self.elastic.lame_modulus(), self.elastic.shear_modulus());
-        Ok(Response {
-            energy,
-            stress,
-            tangent,
-        })
+        Ok(Response::new(energy, stress, tangent))
     }
 
     fn small_strain_moduli(&self) -> ElasticConstants {

@@ -1,10 +1,12 @@
 //! The 3e law of Laine, Vallee and Fortune: a quartic in the strain, in invariants of equal eigenvectors.
 
 use crate::elastic_constants::ElasticConstants;
-use crate::material::{Inverted, Material, Response};
+use crate::inverted::Inverted;
+use crate::material::{Material, Response};
 use crate::parameter::{ParameterError, inside_closed};
 use crate::real::Real;
-use crate::tensor;
+use crate::stretch::require_finite;
+use crate::tensor::{self, Symmetric, Tangent};
 
 const SQRT_3: f64 = 1.732_050_807_568_877_2;
 const SQRT_6: f64 = 2.449_489_742_783_178;
@@ -35,17 +37,17 @@ pub struct ThreeE {
 struct Invariants<T> {
     z: T,
     q: T,
-    deviator: [T; 6],
+    deviator: Symmetric<T>,
 }
 
 impl<T: Real> Invariants<T> {
     #[inline]
-    fn new(c: &[T; 6]) -> Result<Self, Inverted> {
-        tensor::require_finite(c)?;
+    fn new(c: &Symmetric<T>) -> Result<Self, Inverted> {
+        require_finite(c)?;
         let e = tensor::green_lagrange(c);
         let trace = tensor::trace(&e);
         let mean = trace / 3.0;
-        let deviator = [e[0] - mean, e[1] - mean, e[2] - mean, e[3], e[4], e[5]];
+        let deviator = Symmetric::new(e[0] - mean, e[1] - mean, e[2] - mean, e[3], e[4], e[5]);
         Ok(Self {
             z: trace / SQRT_3,
             q: tensor::norm_squared(&deviator),
@@ -92,7 +94,7 @@ impl ThreeE {
     }
 
     #[inline]
-    fn stress_of(&self, invariants: &Invariants<f64>) -> [f64; 6] {
+    fn stress_of(&self, invariants: &Invariants<f64>) -> Symmetric {
         let Invariants {
             z,
             q,
@@ -103,19 +105,13 @@ impl ThreeE {
         let two_dw_dq = 2.0 * self.elastic.shear_modulus() + 0.5 * a3 * z * z + a5 * q;
         let cubic = SQRT_6 * a1;
         let on_diagonal = dw_dz / SQRT_3 - cubic * q / 3.0;
-        let square = tensor::square(e_d);
-        let mut s = [0.0; 6];
-        for i in 0..6 {
-            s[i] = two_dw_dq * e_d[i] + cubic * square[i];
-        }
-        for x in &mut s[..3] {
-            *x += on_diagonal;
-        }
+        let mut s = e_d * two_dw_dq + tensor::square(e_d) * cubic;
+        tensor::add_spherical(&mut s, on_diagonal);
         s
     }
 
     #[inline]
-    fn tangent_of(&self, invariants: &Invariants<f64>) -> [[f64; 6]; 6] {
+    fn tangent_of(&self, invariants: &Invariants<f64>) -> Tangent {
         let Invariants {
             z,
             q,
@@ -128,16 +124,16 @@ impl ThreeE {
         let cubic = SQRT_6 * a1;
         // I (x) (..) + (..) (x) I holds the coupling of a3 and the trace removed from d(E_d^2).
         let mixed = a3 * z / SQRT_3 - 2.0 / 3.0 * cubic;
-        let mixed = e_d.map(|x| mixed * x);
-        let mut d = tensor::derivative_of_square(&e_d.map(|x| cubic * x));
+        let mixed = e_d * mixed;
+        let mut d = tensor::derivative_of_square(&(e_d * cubic));
         for i in 0..3 {
             for j in 0..3 {
-                d[i][j] += (d2w_dz2 - two_dw_dq) / 3.0 + (mixed[i] + mixed[j]);
-                d[i][j + 3] += mixed[j + 3];
-                d[j + 3][i] += mixed[j + 3];
+                d[(i, j)] += (d2w_dz2 - two_dw_dq) / 3.0 + (mixed[i] + mixed[j]);
+                d[(i, j + 3)] += mixed[j + 3];
+                d[(j + 3, i)] += mixed[j + 3];
             }
-            d[i][i] += two_dw_dq;
-            d[i + 3][i + 3] += 0.5 * two_dw_dq;
+            d[(i, i)] += two_dw_dq;
+            d[(i + 3, i + 3)] += 0.5 * two_dw_dq;
         }
         tensor::add_dyad(&mut d, 2.0 * a5, e_d);
         d
@@ -146,24 +142,24 @@ impl ThreeE {
 
 impl Material for ThreeE {
     #[inline]
-    fn energy<T: Real>(&self, c: &[T; 6]) -> Result<T, Inverted> {
+    fn energy<T: Real>(&self, c: &Symmetric<T>) -> Result<T, Inverted> {
         Ok(self.energy_of(&Invariants::new(c)?))
     }
 
     #[inline]
-    fn stress(&self, c: &[f64; 6]) -> Result<(f64, [f64; 6]), Inverted> {
+    fn stress(&self, c: &Symmetric) -> Result<(f64, Symmetric), Inverted> {
         let invariants = Invariants::new(c)?;
         Ok((self.energy_of(&invariants), self.stress_of(&invariants)))
     }
 
     #[inline]
-    fn response(&self, c: &[f64; 6]) -> Result<Response, Inverted> {
+    fn response(&self, c: &Symmetric) -> Result<Response, Inverted> {
         let invariants = Invariants::new(c)?;
-        Ok(Response {
-            energy: self.energy_of(&invariants),
-            stress: self.stress_of(&invariants),
-            tangent: self.tangent_of(&invariants),
-        })
+        Ok(Response::new(
+            self.energy_of(&invariants),
+            self.stress_of(&invariants),
+            self.tangent_of(&invariants),
+        ))
     }
 
     fn small_strain_moduli(&self) -> ElasticConstants {

@@ -54,7 +54,10 @@ impl Fields {
             normal_force: nodes.iter().map(|n| n.normal).collect(),
             tangential_force: nodes.iter().map(|n| n.tangential).collect(),
             von_mises: stress.iter().map(|s| s.von_mises).collect(),
-            cauchy: stress.iter().flat_map(|s| s.cauchy).collect(),
+            cauchy: stress
+                .iter()
+                .flat_map(|s| s.cauchy.iter().copied())
+                .collect(),
             body: blocks
                 .flat_map(|(b, &body)| vec![body; b.element_count()])
                 .collect(),
@@ -125,19 +128,12 @@ impl Fields {
 fn stresses(built: &Built, state: &State) -> Vec<ElementState> {
     let mut all = Vec::new();
     for block in built.model.solid.blocks() {
-        let empty = ElementState {
-            cauchy: [0.0; 6],
-            von_mises: 0.0,
-            det_f_min: 0.0,
-            det_f_max: 0.0,
-        };
-        let mut states = vec![empty; block.element_count()];
+        let mut states = vec![ElementState::default(); block.element_count()];
         if block.stress_state(&state.u, &mut states).is_err() {
-            states.fill(ElementState {
-                cauchy: [f64::NAN; 6],
-                von_mises: f64::NAN,
-                ..empty
-            });
+            let mut unknown = ElementState::default();
+            unknown.cauchy.fill(f64::NAN);
+            unknown.von_mises = f64::NAN;
+            states.fill(unknown);
         }
         all.extend(states);
     }

@@ -57,12 +57,7 @@ const RATIOS: [(usize, usize); 10] = [
 /// # Errors
 /// The end state has no stress.
 pub fn measure(ran: &Ran, axis: usize, pressure: f64) -> Result<Vec<Found>, String> {
-    let empty = ElementState {
-        cauchy: [0.0; 6],
-        von_mises: 0.0,
-        det_f_min: 0.0,
-        det_f_max: 0.0,
-    };
+    let empty = ElementState::default();
     let mut errors = Vec::new();
     for block in ran.built.model.solid.blocks() {
         let mut states = vec![empty; block.element_count()];

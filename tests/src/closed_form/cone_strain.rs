@@ -154,15 +154,16 @@ impl Field {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hyperelastic::{ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff};
+    use hyperelastic::{
+        ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, Symmetric, right_cauchy_green,
+    };
+    use nalgebra::Matrix3;
 
-    type Energy = Box<dyn Fn(&[f64; 6]) -> f64>;
+    type Energy = Box<dyn Fn(&Symmetric) -> f64>;
 
-    /// `C` of `F = I + s h`, in the order 11 22 33 12 13 23.
-    fn stretch(h: &Gradient, s: f64) -> [f64; 6] {
-        let f = |i: usize, j: usize| f64::from(u8::from(i == j)) + s * h[i][j];
-        let c = |i: usize, j: usize| (0..3).map(|k| f(k, i) * f(k, j)).sum();
-        [c(0, 0), c(1, 1), c(2, 2), c(0, 1), c(0, 2), c(1, 2)]
+    /// `C` of `F = I + s h`.
+    fn stretch(h: &Gradient, s: f64) -> Symmetric {
+        right_cauchy_green(&(Matrix3::identity() + Matrix3::from_fn(|i, j| s * h[i][j])))
     }
 
     #[test]

@@ -46,12 +46,7 @@ fn pressed_blocks_with_matching_meshes_pass_the_patch_test() {
         for mu in [0.0, 0.5] {
             let run = pressed(law, mu);
             let state = &run.last().state;
-            let empty = fe_core::ElementState {
-                cauchy: [0.0; 6],
-                von_mises: 0.0,
-                det_f_min: 0.0,
-                det_f_max: 0.0,
-            };
+            let empty = fe_core::ElementState::default();
             let mut all = Vec::new();
             for block in run.built.model.solid.blocks() {
                 let mut states = vec![empty; block.element_count()];

@@ -45,7 +45,7 @@ fn stresses(run: &Run) -> Vec<[f64; 6]> {
         block.stress_state(u, &mut states).unwrap();
         states
     });
-    states.map(|state| state.cauchy).collect()
+    states.map(|state| state.cauchy.into()).collect()
 }
 
 /// All elements have the stress of the first, to round-off.

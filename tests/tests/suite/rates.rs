@@ -3,13 +3,13 @@
 use std::f64::consts::FRAC_PI_2;
 
 use fe_core::element::{corner_points, reference_gradients};
-use fe_core::kinematics::{determinant, right_cauchy_green};
 use fe_core::quadrature::QuadraturePoint;
 use fe_core::{
     BoxMesh, CellKind, Dirichlet, Element, Hex8, Hex27, Interpolation, Mesh, Quad4, Quad9,
     RectangleMesh, Solid, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,
 };
-use hyperelastic::{ElasticConstants, Material, NeoHookean};
+use hyperelastic::{ElasticConstants, Material, NeoHookean, right_cauchy_green};
+use nalgebra::Matrix3;
 use nscd::{
     ContactLevel, Inertia, Load, Model, NoClock, Rayleigh, Scheme, Settings, Span, Stepper, Totals,
     march,
@@ -287,12 +287,11 @@ impl Problem {
 
 /// `P = F S` of the law.
 fn first_piola(h: &Mat3) -> Mat3 {
-    let mut f = *h;
-    (0..3).for_each(|i| f[i][i] += 1.0);
-    assert!(determinant(&f) > 0.1);
+    let f = Matrix3::from_fn(|i, j| h[i][j]) + Matrix3::identity();
+    assert!(f.determinant() > 0.1);
     let (_, s) = law().stress(&right_cauchy_green(&f)).unwrap();
-    let s = [[s[0], s[3], s[4]], [s[3], s[1], s[5]], [s[4], s[5], s[2]]];
-    std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| f[i][k] * s[k][j]).sum()))
+    let p = hyperelastic::first_piola(&f, &s);
+    std::array::from_fn(|i| std::array::from_fn(|j| p[(i, j)]))
 }
 
 /// Twice the energy of a small strain.

@@ -5,9 +5,11 @@
 //! `(B_L + B_NL)^T S` and `(B_L + B_NL)^T D (B_L + B_NL) + geometric part` \[Feng2007, eq. 30, 34\] without their
 //! zeros. Arrays have the node as the last index, which is the vector lane.
 
-use hyperelastic::Material;
+use hyperelastic::tensor::INDEX;
+use hyperelastic::{Material, Symmetric, Tangent, right_cauchy_green};
+use nalgebra::Matrix3;
 
-use crate::kinematics::{VOIGT_INDEX, deformation_gradient, determinant, right_cauchy_green};
+use crate::kinematics::deformation_gradient;
 
 /// Pairs of components `i <= k`.
 pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
@@ -37,9 +39,9 @@ pub(super) fn deform<const N: usize>(
     u: &[[f64; N]; 3],
     gradients: &Gradients<N>,
     point: usize,
-) -> Result<([[f64; 3]; 3], f64), Inversion> {
+) -> Result<(Matrix3<f64>, f64), Inversion> {
     let f = deformation_gradient(u, gradients);
-    let det_f = determinant(&f);
+    let det_f = f.determinant();
     // Written so that NaN fails.
     if det_f > 0.0 && det_f < f64::INFINITY {
         Ok((f, det_f))
@@ -51,18 +53,16 @@ pub(super) fn deform<const N: usize>(
 /// Adds `volume F S dN/dX` to the nodal forces.
 #[inline(always)]
 fn add_force<const N: usize>(
-    f: &[[f64; 3]; 3],
-    s: &[f64; 6],
+    f: &Matrix3<f64>,
+    s: &Symmetric,
     volume: f64,
     gradients: &Gradients<N>,
     forces: &mut [[f64; N]; 3],
 ) {
-    let s = s.map(|s| volume * s);
+    let s = s * volume;
     for i in 0..3 {
         let p = [0, 1, 2].map(|j| {
-            f[i][0] * s[VOIGT_INDEX[0][j]]
-                + f[i][1] * s[VOIGT_INDEX[1][j]]
-                + f[i][2] * s[VOIGT_INDEX[2][j]]
+            f[(i, 0)] * s[INDEX[0][j]] + f[(i, 1)] * s[INDEX[1][j]] + f[(i, 2)] * s[INDEX[2][j]]
         });
         for a in 0..N {
             let sum = p[1].mul_add(gradients[1][a], forces[i][a]);
@@ -131,17 +131,13 @@ pub(super) fn tangent<M: Material, const N: usize>(
 
 /// `volume A_iJkL` stored `[pair ik]\[J\][L]`.
 #[inline(always)]
-fn elasticity(
-    f: &[[f64; 3]; 3],
-    s: &[f64; 6],
-    d: &[[f64; 6]; 6],
-    volume: f64,
-) -> [[[f64; 3]; 3]; 6] {
+fn elasticity(f: &Matrix3<f64>, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f64; 3]; 3]; 6] {
     let mut half = [[[0.0; 6]; 3]; 3];
     for i in 0..3 {
-        let f = f[i].map(|f| volume * f);
+        let f = [0, 1, 2].map(|m| volume * f[(i, m)]);
         for j in 0..3 {
-            let [d0, d1, d2] = [0, 1, 2].map(|m| &d[VOIGT_INDEX[m][j]]);
+            // Columns, which are rows to round-off.
+            let [d0, d1, d2] = [0, 1, 2].map(|m| d.column(INDEX[m][j]));
             for v in 0..6 {
                 half[i][j][v] = f[2].mul_add(d2[v], f[1].mul_add(d1[v], f[0] * d0[v]));
             }
@@ -151,14 +147,10 @@ fn elasticity(
     for (a, (i, k)) in a.iter_mut().zip(PAIRS) {
         for j in 0..3 {
             for l in 0..3 {
-                let geometric = if i == k {
-                    volume * s[VOIGT_INDEX[j][l]]
-                } else {
-                    0.0
-                };
-                let h = [0, 1, 2].map(|n| half[i][j][VOIGT_INDEX[n][l]]);
-                let sum = h[1].mul_add(f[k][1], h[0].mul_add(f[k][0], geometric));
-                a[j][l] = h[2].mul_add(f[k][2], sum);
+                let geometric = if i == k { volume * s[INDEX[j][l]] } else { 0.0 };
+                let h = [0, 1, 2].map(|n| half[i][j][INDEX[n][l]]);
+                let sum = h[1].mul_add(f[(k, 1)], h[0].mul_add(f[(k, 0)], geometric));
+                a[j][l] = h[2].mul_add(f[(k, 2)], sum);
             }
         }
     }

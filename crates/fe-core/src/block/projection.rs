@@ -1,12 +1,13 @@
 //! Deformation of the quadrature points of an element with projected dilatation, see [`super::projected_kernel`].
 
+use hyperelastic::{Symmetric, Tangent};
+use nalgebra::Matrix3;
+
 use super::kernel::{self, Gradients, Inversion};
 use super::plane_kernel;
 
 /// Most functions of an element's projected dilatation: 1, X, Y, Z.
 pub(super) const MODES: usize = 4;
-
-pub(super) type Matrix = [[f64; 3]; 3];
 
 /// Component of the displacement that an entry of `F` belongs to, its row and its column. The gradients that belong to
 /// an entry are the row of its column.
@@ -20,7 +21,7 @@ pub(super) trait Entries<const K: usize> {
         u: &[[f64; N]; 3],
         gradients: &Gradients<N>,
         point: usize,
-    ) -> Result<(Matrix, f64), Inversion>;
+    ) -> Result<(Matrix3<f64>, f64), Inversion>;
 }
 
 /// All nine.
@@ -49,7 +50,7 @@ impl Entries<9> for Space {
         u: &[[f64; N]; 3],
         gradients: &Gradients<N>,
         point: usize,
-    ) -> Result<(Matrix, f64), Inversion> {
+    ) -> Result<(Matrix3<f64>, f64), Inversion> {
         kernel::deform(u, gradients, point)
     }
 }
@@ -62,7 +63,7 @@ impl Entries<5> for Plane {
         u: &[[f64; N]; 3],
         gradients: &Gradients<N>,
         point: usize,
-    ) -> Result<(Matrix, f64), Inversion> {
+    ) -> Result<(Matrix3<f64>, f64), Inversion> {
         plane_kernel::deform(u, gradients, point)
     }
 }
@@ -87,8 +88,8 @@ impl<const N: usize> Points<'_, N> {
 /// Deformation of a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deformed {
-    pub(super) f: Matrix,
-    pub(super) cofactor: Matrix,
+    pub(super) f: Matrix3<f64>,
+    pub(super) cofactor: Matrix3<f64>,
     pub(super) det_f: f64,
     /// Projected `det F`.
     pub(super) theta: f64,
@@ -106,9 +107,8 @@ impl Deformed {
         }
     }
 
-    pub(super) fn f_bar(&self) -> Matrix {
-        let scale = self.scale();
-        self.f.map(|row| row.map(|f| scale * f))
+    pub(super) fn f_bar(&self) -> Matrix3<f64> {
+        self.f * self.scale()
     }
 }
 
@@ -117,9 +117,9 @@ impl Deformed {
 pub(super) struct Workspace<const N: usize> {
     pub(super) points: Vec<Deformed>,
     /// Energy and stress at `Cbar`.
-    pub(super) stresses: Vec<(f64, [f64; 6])>,
+    pub(super) stresses: Vec<(f64, Symmetric)>,
     /// `dS/dE` at `Cbar`.
-    pub(super) moduli: Vec<[[f64; 6]; 6]>,
+    pub(super) moduli: Vec<Tangent>,
     /// Derivatives of the amplitudes of the dilatation with respect to the displacements.
     pub(super) rates: [Gradients<N>; MODES],
 }
@@ -135,7 +135,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// `Fbar` and its determinant at each point.
-    pub(super) fn deformations(&self) -> impl Iterator<Item = (Matrix, f64)> {
+    pub(super) fn deformations(&self) -> impl Iterator<Item = (Matrix3<f64>, f64)> {
         self.points.iter().map(|point| (point.f_bar(), point.theta))
     }
 
@@ -156,7 +156,7 @@ impl<const N: usize> Workspace<N> {
             let cofactor = cofactor(&f);
             for (i, b) in element.modes_at(point).iter().enumerate() {
                 amplitudes[i] += volume * b * det_f;
-                let rate = L::LIST.map(|(_, i, j)| volume * b * cofactor[i][j]);
+                let rate = L::LIST.map(|(_, i, j)| volume * b * cofactor[(i, j)]);
                 add_stress::<L, K, N>(&rate, gradients, &mut self.rates[i]);
             }
             self.points.push(Deformed {
@@ -179,13 +179,13 @@ impl<const N: usize> Workspace<N> {
 }
 
 #[inline(always)]
-fn cofactor(f: &Matrix) -> Matrix {
-    let mut cofactor = [[0.0; 3]; 3];
+fn cofactor(f: &Matrix3<f64>) -> Matrix3<f64> {
+    let mut cofactor = Matrix3::zeros();
     for i in 0..3 {
         for j in 0..3 {
             // Cyclic indices give the cofactor its sign.
             let (r, s, p, q) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            cofactor[i][j] = f[r][p] * f[s][q] - f[r][q] * f[s][p];
+            cofactor[(i, j)] = f[(r, p)] * f[(s, q)] - f[(r, q)] * f[(s, p)];
         }
     }
     cofactor

@@ -1,15 +1,15 @@
 //! Solid elements with a hyperelastic material.
 
-use hyperelastic::Material;
+use hyperelastic::{Material, cauchy, right_cauchy_green, von_mises};
+use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 use super::dilatation::{Dilatation, modes};
 use super::kernel::{self, Inversion};
-use super::projection::{Matrix, Plane, Points, Space, Workspace};
+use super::projection::{Plane, Points, Space, Workspace};
 use super::{Block, ElementState, plane_kernel, projected_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
-use crate::kinematics::{cauchy_stress, determinant, right_cauchy_green, von_mises};
 use crate::mesh::{CellBlock, Mesh, Symmetry};
 use crate::parallel::{ELEMENTS_PER_TASK, sequential};
 
@@ -284,7 +284,11 @@ where
     }
 
     /// Deformation gradient that the law sees, and its determinant, at each point of an element.
-    fn deformations(&self, element: usize, u: &[f64]) -> Result<Vec<(Matrix, f64)>, Inversion> {
+    fn deformations(
+        &self,
+        element: usize,
+        u: &[f64],
+    ) -> Result<Vec<(Matrix3<f64>, f64)>, Inversion> {
         let (u, points) = (self.displacements(element, u), self.quadrature(element));
         if self.dilatation == Dilatation::Projected {
             let mut work = Workspace::new();
@@ -317,13 +321,12 @@ where
             let stress = self.material.stress(&right_cauchy_green(&f));
             let (_, s) = stress.map_err(|_| fail(Inversion { point, det_f }))?;
             let current = det_f * self.volumes[element * E::POINTS + point];
-            let sigma = cauchy_stress(&f, &s);
-            (0..6).for_each(|v| state.cauchy[v] += current * sigma[v]);
+            state.cauchy += cauchy(&f, &s) * current;
             volume += current;
             state.det_f_min = state.det_f_min.min(det_f);
             state.det_f_max = state.det_f_max.max(det_f);
         }
-        state.cauchy = state.cauchy.map(|s| s / volume);
+        state.cauchy /= volume;
         state.von_mises = von_mises(&state.cauchy);
         Ok(state)
     }
@@ -410,7 +413,7 @@ where
             let x = std::array::from_fn(|a| [corners[0][a], corners[1][a], corners[2][a]]);
             mass.fill(0.0);
             for point in E::mass_rule() {
-                let det_j = determinant(&jacobian::<E, N>(&x, &point.xi));
+                let det_j = jacobian::<E, N>(&x, &point.xi).determinant();
                 let shape = E::shape(&point.xi);
                 let extent = self
                     .symmetry

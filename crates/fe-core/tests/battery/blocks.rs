@@ -3,14 +3,13 @@
 use fe_core::block::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::conformance::{self, Violation};
 use fe_core::element::{corner_points, reference_gradients};
-use fe_core::kinematics::{
-    deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix, right_cauchy_green,
-};
+use fe_core::kinematics::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
 use fe_core::{
     BoxMesh, CellKind, Element, FeError, Hex8, Hex27, Mesh, Motion, Quad4, Quad9, Rotation, Solid,
     SolidBlock, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,
 };
-use hyperelastic::{Material, SaintVenantKirchhoff};
+use hyperelastic::tensor::to_matrix;
+use hyperelastic::{Material, SaintVenantKirchhoff, right_cauchy_green};
 use nalgebra::{Matrix3, Vector3};
 use proptest::prelude::*;
 
@@ -129,13 +128,11 @@ where
         let (g, det_j) = reference_gradients::<E, N>(&x, &point.xi);
         let w = point.weight * det_j;
         let f = deformation_gradient(&local, &g);
-        let mut h = f;
-        (0..3).for_each(|i| h[i][i] -= 1.0);
+        let h = f - Matrix3::identity();
         let (linear, nonlinear) = (linear_strain_matrix(&g), nonlinear_strain_matrix(&h, &g));
-        let b = |p: usize, v: usize| linear[p / 3][p % 3][v] + nonlinear[p / 3][p % 3][v];
+        let b = |p: usize, v: usize| linear[p / 3][(v, p % 3)] + nonlinear[p / 3][(v, p % 3)];
         let response = material.response(&right_cauchy_green(&f)).unwrap();
-        let s = response.stress;
-        let s = [[s[0], s[3], s[4]], [s[3], s[1], s[5]], [s[4], s[5], s[2]]];
+        let s = to_matrix(&response.stress);
         for p in 0..3 * N {
             force[p] += (0..6)
                 .map(|v| w * b(p, v) * response.stress[v])
@@ -143,13 +140,13 @@ where
             for q in 0..3 * N {
                 for v in 0..6 {
                     for y in 0..6 {
-                        tangent[p][q] += w * b(p, v) * response.tangent[v][y] * b(q, y);
+                        tangent[p][q] += w * b(p, v) * response.tangent[(v, y)] * b(q, y);
                     }
                 }
                 if p % 3 == q % 3 {
                     for j in 0..3 {
                         for l in 0..3 {
-                            tangent[p][q] += w * g[j][p / 3] * s[j][l] * g[l][q / 3];
+                            tangent[p][q] += w * g[j][p / 3] * s[(j, l)] * g[l][q / 3];
                         }
                     }
                 }

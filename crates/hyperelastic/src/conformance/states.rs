@@ -1,71 +1,35 @@
-//! Where laws are tried, and the small algebra to compare them.
+//! Where laws are tried, and the rotations they are compared under.
 
 use std::f64::consts::TAU;
 
-use super::Options;
-use crate::tensor;
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 
-type Matrix = [[f64; 3]; 3];
+use super::Options;
+use crate::tensor::{self, Symmetric};
 
 /// Rotation for three numbers in `[0, 1]`; evenly spread numbers give evenly spread rotations.
-pub fn rotation([u, v, w]: [f64; 3]) -> [[f64; 3]; 3] {
+#[must_use]
+pub fn rotation([u, v, w]: [f64; 3]) -> Matrix3<f64> {
     let (sin_v, cos_v) = (TAU * v).sin_cos();
     let (sin_w, cos_w) = (TAU * w).sin_cos();
     let (a, b) = ((1.0 - u).max(0.0).sqrt(), u.max(0.0).sqrt());
-    let (x, y, z, s) = (a * sin_v, a * cos_v, b * sin_w, b * cos_w);
-    [
-        [
-            1.0 - 2.0 * (y * y + z * z),
-            2.0 * (x * y - s * z),
-            2.0 * (x * z + s * y),
-        ],
-        [
-            2.0 * (x * y + s * z),
-            1.0 - 2.0 * (x * x + z * z),
-            2.0 * (y * z - s * x),
-        ],
-        [
-            2.0 * (x * z - s * y),
-            2.0 * (y * z + s * x),
-            1.0 - 2.0 * (x * x + y * y),
-        ],
-    ]
+    let quaternion = Quaternion::new(b * cos_w, a * sin_v, a * cos_v, b * sin_w);
+    let unit = UnitQuaternion::new_unchecked(quaternion);
+    unit.to_rotation_matrix().into_inner()
 }
 
-/// `C = F^T F`, components 11 22 33 12 13 23.
-pub fn right_cauchy_green(f: &[[f64; 3]; 3]) -> [f64; 6] {
-    let entry = |i: usize, j: usize| f[0][i] * f[0][j] + f[1][i] * f[1][j] + f[2][i] * f[2][j];
-    [
-        entry(0, 0),
-        entry(1, 1),
-        entry(2, 2),
-        entry(0, 1),
-        entry(0, 2),
-        entry(1, 2),
-    ]
-}
+/// Small strains, equal stretches and pure shears, relative to no strain: where formulas lose digits or divide by zero.
+const SPECIAL_STRETCHES: [f64; 4] = [0.7, 1.0 - 1e-7, 1.0 + 1e-9, 1.2];
 
-/// `P = F S`, first Piola-Kirchhoff stress in the unit of `S`: force per reference area.
-pub fn first_piola(f: &[[f64; 3]; 3], s: &[f64; 6]) -> [[f64; 3]; 3] {
-    product(f, &full(s))
-}
-
-/// `sigma = F S F^T/J`, Cauchy stress in the unit of `S`, components 11 22 33 12 13 23.
-///
-/// \[Hu2022, eq. 40\], \[Feng2007, eq. 21\]
-pub fn cauchy(f: &[[f64; 3]; 3], s: &[f64; 6]) -> [f64; 6] {
-    let j = f[0][0] * (f[1][1] * f[2][2] - f[1][2] * f[2][1])
-        - f[0][1] * (f[1][0] * f[2][2] - f[1][2] * f[2][0])
-        + f[0][2] * (f[1][0] * f[2][1] - f[1][1] * f[2][0]);
-    rotate(s, f).map(|x| x / j)
-}
+/// The root of `x^7 = x + 1`, whose powers fill the unit cube of six dimensions evenly.
+const ROOT: f64 = 1.112_775_684_278_705_5;
 
 /// All states of [`check`](super::check): the special ones, then a low-discrepancy sequence.
-pub(super) fn all(options: &Options) -> Vec<([f64; 3], Matrix)> {
+pub(super) fn all(options: &Options) -> Vec<([f64; 3], Matrix3<f64>)> {
     let [low, high] = options.stretches;
     let turned = rotation([0.3, 0.8, 0.45]);
     let mut states = vec![([1.0; 3], rotation([0.0, 0.0, 0.0]))];
-    for l in [low, 0.7, 1.0 - 1e-7, 1.0 + 1e-9, 1.2, high] {
+    for l in [low, high].into_iter().chain(SPECIAL_STRETCHES) {
         if (low..=high).contains(&l) {
             states.extend(
                 [[l; 3], [l, l, 1.0], [l, 1.0, 1.0], [l, 1.0 / l, 1.0]]
@@ -73,8 +37,6 @@ pub(super) fn all(options: &Options) -> Vec<([f64; 3], Matrix)> {
             );
         }
     }
-    // Powers of the root of x^7 = x + 1 fill the unit cube of six dimensions evenly.
-    const ROOT: f64 = 1.112_775_684_278_705_5;
     for n in 1..=options.states {
         let mut point = [0.0; 6];
         let mut power = 1.0;
@@ -93,35 +55,32 @@ pub(super) fn all(options: &Options) -> Vec<([f64; 3], Matrix)> {
     states
 }
 
+/// The size of [`small_strains`] \[-\]: far below what the square of a strain adds, far above the round-off of `C`.
+const SMALL_STRAIN: f64 = 1e-7;
+
 /// States with strains of 1e-7.
-pub(super) fn small_strains() -> [[f64; 6]; 4] {
-    let near = |e: [f64; 6]| {
-        let mut c = tensor::IDENTITY;
-        for i in 0..6 {
-            c[i] += 2e-7 * e[i];
-        }
-        c
-    };
+pub(super) fn small_strains() -> [Symmetric; 4] {
     [
-        near([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-        near([-1.0, -1.0, -1.0, 0.0, 0.0, 0.0]),
-        near([0.0, 0.0, 0.0, 1.0, 0.0, 0.0]),
-        near([0.7, -0.4, 0.2, 0.3, -0.5, 0.6]),
+        [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        [-1.0, -1.0, -1.0, 0.0, 0.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0, 0.0, 0.0],
+        [0.7, -0.4, 0.2, 0.3, -0.5, 0.6],
     ]
+    .map(|e| tensor::IDENTITY + Symmetric::from(e) * (2.0 * SMALL_STRAIN))
 }
 
 /// Tensors that are `F^T F` of no deformation, or of an absurd one.
-pub(super) fn impossible() -> [[f64; 6]; 12] {
-    let scaled = |s: f64| tensor::IDENTITY.map(|x| s * x);
+pub(super) fn impossible() -> [Symmetric; 12] {
+    let scaled = |s: f64| tensor::IDENTITY * s;
     [
-        [0.0; 6],
-        [0.0, 1.0, 1.0, 0.0, 0.0, 0.0],
-        [-1.0, 1.0, 1.0, 0.0, 0.0, 0.0],
-        [-1.0, -1.0, 1.0, 0.0, 0.0, 0.0],
-        [1.0, 1.0, 1.0, 2.0, 0.0, 0.0],
-        [1.0, 1.0, 1.0, 1.0, 1.0, 1.0],
-        [1e200, 1e-200, 1.0, 0.0, 0.0, 0.0],
-        [1e20, 1e-20, 1.0, 0.0, 0.0, 0.0],
+        Symmetric::zeros(),
+        Symmetric::new(0.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+        Symmetric::new(-1.0, 1.0, 1.0, 0.0, 0.0, 0.0),
+        Symmetric::new(-1.0, -1.0, 1.0, 0.0, 0.0, 0.0),
+        Symmetric::new(1.0, 1.0, 1.0, 2.0, 0.0, 0.0),
+        Symmetric::new(1.0, 1.0, 1.0, 1.0, 1.0, 1.0),
+        Symmetric::new(1e200, 1e-200, 1.0, 0.0, 0.0, 0.0),
+        Symmetric::new(1e20, 1e-20, 1.0, 0.0, 0.0, 0.0),
         scaled(1e-105),
         scaled(1e-8),
         scaled(1e20),
@@ -129,51 +88,7 @@ pub(super) fn impossible() -> [[f64; 6]; 12] {
     ]
 }
 
-/// The `j`-th unit strain: as a tensor, and in engineering components.
-pub(super) fn unit_strain(j: usize) -> ([f64; 6], [f64; 6]) {
-    let mut strain = [0.0; 6];
-    strain[j] = 1.0;
-    (strain, engineering(&strain))
-}
-
-/// Shear components doubled.
-pub(super) fn engineering(a: &[f64; 6]) -> [f64; 6] {
-    [a[0], a[1], a[2], 2.0 * a[3], 2.0 * a[4], 2.0 * a[5]]
-}
-
 /// `Q A Q^T`.
-pub(super) fn rotate(a: &[f64; 6], q: &Matrix) -> [f64; 6] {
-    let qa = product(q, &full(a));
-    let entry = |i: usize, j: usize| dot(&qa[i], &q[j]);
-    [
-        entry(0, 0),
-        entry(1, 1),
-        entry(2, 2),
-        entry(0, 1),
-        entry(0, 2),
-        entry(1, 2),
-    ]
-}
-
-/// `D e`.
-pub(super) fn times(d: &[[f64; 6]; 6], e: &[f64; 6]) -> [f64; 6] {
-    d.map(|row| dot(&row, e))
-}
-
-pub(super) fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn full(a: &[f64; 6]) -> Matrix {
-    [[a[0], a[3], a[4]], [a[3], a[1], a[5]], [a[4], a[5], a[2]]]
-}
-
-fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    let mut c = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
-        }
-    }
-    c
+pub(super) fn rotate(a: &Symmetric, q: &Matrix3<f64>) -> Symmetric {
+    tensor::from_matrix(&(q * tensor::to_matrix(a) * q.transpose()))
 }

@@ -2,10 +2,12 @@
 
 use std::fmt;
 
-use crate::material::Inverted;
+use crate::inverted::Inverted;
+use crate::tensor::Symmetric;
 
 /// What a law can get wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Property {
     /// A result is NaN or infinite where a value or [`Inverted`] is due.
     Finite,
@@ -19,7 +21,7 @@ pub enum Property {
     TangentIsSecondDerivativeOfEnergy,
     /// `D = 2 dS/dC`, by central differences.
     TangentIsDifferenceOfStress,
-    /// `D_ijkl = D_klij`, to the last bit.
+    /// `D_ijkl = D_klij`, to round-off.
     TangentIsSymmetric,
     /// `W(Q C Q^T) = W(C)`.
     EnergyIsIsotropic,
@@ -43,6 +45,7 @@ pub enum Property {
 
 /// A demand that a law does not meet, with the state where it was seen.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Violation {
     /// A wrong number.
     #[error(
@@ -52,7 +55,7 @@ pub enum Violation {
         /// Which demand.
         property: Property,
         /// The state, 11 22 33 12 13 23.
-        c: [f64; 6],
+        c: Symmetric,
         /// Which component, e.g. `S[0]` or `D[1][2]`.
         component: Component,
         /// What the law gave.
@@ -66,7 +69,7 @@ pub enum Violation {
     #[error("refuses C = {c:?}: {source}")]
     Refused {
         /// The state, 11 22 33 12 13 23.
-        c: [f64; 6],
+        c: Symmetric,
         /// What the law answered.
         source: Inverted,
     },
@@ -76,7 +79,7 @@ pub enum Violation {
         /// Which demand.
         property: Property,
         /// The state, 11 22 33 12 13 23.
-        c: [f64; 6],
+        c: Symmetric,
     },
 }
 

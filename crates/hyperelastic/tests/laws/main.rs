@@ -11,8 +11,10 @@ mod energies;
 mod parameters;
 mod refusals;
 
+use hyperelastic::nalgebra::Matrix3;
 use hyperelastic::{
-    BlatzKo, ElasticConstants, NeoHookean, SaintVenantKirchhoff, ThreeE, conformance,
+    BlatzKo, ElasticConstants, NeoHookean, SaintVenantKirchhoff, Symmetric, ThreeE, conformance,
+    right_cauchy_green,
 };
 use proptest::prelude::*;
 
@@ -43,11 +45,21 @@ fn within_bounds(shear: f64, bulk: f64, [f1, f2, a3, a4, a5]: [f64; 5]) -> [f64;
     ]
 }
 
+/// `F = diag(l) Q^T`, a rotation before the stretch.
+fn turned_and_stretched(l: [f64; 3], q: &Matrix3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&l.into()) * q.transpose()
+}
+
+/// `C` with these principal values along the axes.
+fn diagonal(c: [f64; 3]) -> Symmetric {
+    Symmetric::new(c[0], c[1], c[2], 0.0, 0.0, 0.0)
+}
+
 fn any_stretches() -> impl Strategy<Value = [f64; 3]> {
     [0.3..3.0, 0.3..3.0, 0.3..3.0]
 }
 
-fn any_rotation() -> impl Strategy<Value = [[f64; 3]; 3]> {
+fn any_rotation() -> impl Strategy<Value = Matrix3<f64>> {
     [0.0..1.0, 0.0..1.0, 0.0..1.0].prop_map(conformance::rotation)
 }
 
