@@ -3,7 +3,7 @@
 mod contact;
 mod detect;
 mod error;
-pub mod facet;
+mod facet;
 mod interface;
 mod kinematics;
 mod material_frame;
@@ -13,7 +13,8 @@ mod vector;
 pub use contact::{Contact, ContactKey, Stencil};
 pub use detect::{DetectionCounters, Detector};
 pub use error::GeometryError;
+pub use facet::{FacetPlace, FacetPoint, closest_point};
 pub use interface::{Interface, Master, RIM_ROUND_OFF};
 pub use kinematics::{CompliancePart, ContactMap, FrameRule};
 pub use material_frame::material_frame;
-pub use obstacle::{Obstacle, PlacedObstacle, Shape};
+pub use obstacle::{Obstacle, PlacedObstacle, Shape, SurfacePoint};

@@ -26,9 +26,9 @@ pub use delassus::{BlockSparse, Delassus, DelassusOperator};
 pub use error::{ContactError, ParameterError};
 #[cfg(feature = "geometry")]
 pub use geometry::{
-    CompliancePart, Contact, ContactKey, ContactMap, DetectionCounters, Detector, FrameRule,
-    GeometryError, Interface, Master, Obstacle, PlacedObstacle, RIM_ROUND_OFF, Shape, Stencil,
-    facet, material_frame,
+    CompliancePart, Contact, ContactKey, ContactMap, DetectionCounters, Detector, FacetPlace,
+    FacetPoint, FrameRule, GeometryError, Interface, Master, Obstacle, PlacedObstacle,
+    RIM_ROUND_OFF, Shape, Stencil, SurfacePoint, closest_point, material_frame,
 };
 pub use global::{GlobalProblem, SparseEntries};
 pub use law::{ContactDiagnostic, Status};

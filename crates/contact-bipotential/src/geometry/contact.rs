@@ -127,7 +127,8 @@ impl Contact {
         }
     }
 
-    /// The same contact on an obstacle whose material point under it moves by `motion` \[m\] over the step, global axes.
+    /// The same contact on an obstacle whose material point under it moves by `motion` \[m\] over the step, in global
+    /// axes.
     #[must_use]
     pub fn on_moving_obstacle(self, motion: Vector3<f64>) -> Self {
         Self {

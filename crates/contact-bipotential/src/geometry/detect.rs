@@ -1,5 +1,6 @@
 //! Contact search: from positions to a [`ContactMap`].
 
+mod rims;
 mod surface_search;
 
 use nalgebra::Vector3;
@@ -17,7 +18,8 @@ use surface_search::{SurfaceContact, SurfaceSearch};
 
 /// A node this close to a cone's apex or an axis of symmetry, as a part of the search distance, lies on it.
 const CORE: f64 = 1e-6;
-/// Least mean of the vertex normals of a surface with a typical normal \[-\]: those of a closed one cancel to round-off.
+/// Least mean of the vertex normals of a surface with a typical normal \[-\]: those of a closed one cancel to
+/// round-off.
 const CANCELLED: f64 = 1e-6;
 /// Slave nodes a thread takes at once: a projection is far cheaper than handing it over.
 const GRAIN: usize = 64;
@@ -293,7 +295,7 @@ impl Seeker<'_> {
 
     fn surface_contact(&self, at: &SurfaceContact, slave_index: usize) -> Contact {
         let slave = self.interface.slave[slave_index];
-        let stencil = Stencil::deformable(slave, &at.nodes[..at.count], &at.weights);
+        let stencil = Stencil::deformable(slave, at.nodes.indices(), &at.weights);
         let frame = self.rule.at(unit(at.normal).unwrap_or(at.normal));
         Contact::new(self.key(slave_index), stencil, frame, at.gap).on_facet(at.facet)
     }

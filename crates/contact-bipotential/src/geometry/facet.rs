@@ -11,7 +11,7 @@ use crate::geometry::vector::unit;
 
 /// Where on a facet a point lies. Edges and vertices are exact: the point was clamped to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FacetPlace {
     /// Inside the facet.
     Interior,
     /// On the edge from vertex `k` to the next one.
@@ -32,7 +32,7 @@ pub struct FacetPoint {
     /// Squared distance to the point that was projected \[m^2\].
     pub distance_squared: f64,
     /// Interior, edge or vertex.
-    pub place: Place,
+    pub place: FacetPlace,
 }
 
 /// The point of a facet closest to `p` \[m\]: `vertices` holds 2 to 4 positions \[m\].
@@ -42,6 +42,7 @@ pub struct FacetPoint {
 /// distance has several minima inside.
 ///
 /// With fewer than 2 vertices the first one is returned.
+#[must_use]
 pub fn closest_point(vertices: &[Vector3<f64>], p: Vector3<f64>) -> FacetPoint {
     match vertices {
         [a, b] => line(&[*a, *b], p),
@@ -55,14 +56,17 @@ pub fn closest_point(vertices: &[Vector3<f64>], p: Vector3<f64>) -> FacetPoint {
                 weights: [1.0, 0.0, 0.0, 0.0],
                 point,
                 distance_squared: r.norm_squared(),
-                place: Place::Vertex(0),
+                place: FacetPlace::Vertex(0),
             }
         }
     }
 }
 
 /// Outward unit normal of the facet itself at local coordinates; `None` where the facet is degenerate.
-pub fn facet_normal(vertices: &[Vector3<f64>], coordinates: [f64; 2]) -> Option<Vector3<f64>> {
+pub(crate) fn facet_normal(
+    vertices: &[Vector3<f64>],
+    coordinates: [f64; 2],
+) -> Option<Vector3<f64>> {
     match vertices {
         [a, b] => unit(Vector3::new(b[1] - a[1], a[0] - b[0], 0.0)),
         [a, b, c] => unit((b - a).cross(&(c - a))),
@@ -104,11 +108,11 @@ fn line(x: &[Vector3<f64>; 2], p: Vector3<f64>) -> FacetPoint {
     let a = x[0] - p;
     let t = segment(a, x[1] - p);
     let place = if t <= 0.0 {
-        Place::Vertex(0)
+        FacetPlace::Vertex(0)
     } else if t >= 1.0 {
-        Place::Vertex(1)
+        FacetPlace::Vertex(1)
     } else {
-        Place::Interior
+        FacetPlace::Interior
     };
     let relative = a + t * (x[1] - x[0]);
     finish(x, [t, 0.0], [1.0 - t, t, 0.0, 0.0], place, relative)
@@ -125,7 +129,7 @@ fn triangle(x: &[Vector3<f64>; 3], p: Vector3<f64>) -> FacetPoint {
     if xi > 0.0 && eta > 0.0 && xi + eta < 1.0 {
         let relative = r[0] + xi * b + eta * c;
         let weights = [1.0 - xi - eta, xi, eta, 0.0];
-        return finish(x, [xi, eta], weights, Place::Interior, relative);
+        return finish(x, [xi, eta], weights, FacetPlace::Interior, relative);
     }
     let (edge, t, _) = closest_on_border(&r);
     let next = (edge + 1) % 3;
@@ -133,11 +137,11 @@ fn triangle(x: &[Vector3<f64>; 3], p: Vector3<f64>) -> FacetPoint {
     weights[edge] = 1.0 - t;
     weights[next] = t;
     let place = if t <= 0.0 {
-        Place::Vertex(edge as u8)
+        FacetPlace::Vertex(edge as u8)
     } else if t >= 1.0 {
-        Place::Vertex(next as u8)
+        FacetPlace::Vertex(next as u8)
     } else {
-        Place::Edge(edge as u8)
+        FacetPlace::Edge(edge as u8)
     };
     let relative = r[edge] + t * (x[next] - x[edge]);
     finish(x, [weights[1], weights[2]], weights, place, relative)
@@ -148,7 +152,7 @@ fn finish(
     x: &[Vector3<f64>],
     coordinates: [f64; 2],
     weights: [f64; 4],
-    place: Place,
+    place: FacetPlace,
     relative: Vector3<f64>,
 ) -> FacetPoint {
     FacetPoint {
@@ -224,11 +228,11 @@ impl Bilinear {
         [xi, eta]
     }
 
-    /// Newton step with the coordinates held that sit on a bound and want to leave it.
+    /// Newton step in the coordinates whose bound is not active: not reached, or pushed away from.
     fn newton(&self, s: [f64; 2]) -> [f64; 2] {
         let (g, [huu, huv, hvv, curvature]) = self.derivatives(s);
-        let held = |k: usize| (s[k] <= 0.0 && g[k] >= 0.0) || (s[k] >= 1.0 && g[k] <= 0.0);
-        let step = match (held(0), held(1)) {
+        let is_active = |k: usize| (s[k] <= 0.0 && g[k] >= 0.0) || (s[k] >= 1.0 && g[k] <= 0.0);
+        let step = match (is_active(0), is_active(1)) {
             (true, true) => [0.0, 0.0],
             (true, false) => [0.0, -g[1] / hvv],
             (false, true) => [-g[0] / huu, 0.0],
@@ -314,17 +318,17 @@ fn quadrilateral(x: &[Vector3<f64>; 4], p: Vector3<f64>) -> FacetPoint {
     finish(x, s, weights, place_in_square(s), q.at(s))
 }
 
-fn place_in_square([xi, eta]: [f64; 2]) -> Place {
+fn place_in_square([xi, eta]: [f64; 2]) -> FacetPlace {
     match (xi <= 0.0, xi >= 1.0, eta <= 0.0, eta >= 1.0) {
-        (true, _, true, _) => Place::Vertex(0),
-        (_, true, true, _) => Place::Vertex(1),
-        (_, true, _, true) => Place::Vertex(2),
-        (true, _, _, true) => Place::Vertex(3),
-        (_, _, true, _) => Place::Edge(0),
-        (_, true, _, _) => Place::Edge(1),
-        (_, _, _, true) => Place::Edge(2),
-        (true, _, _, _) => Place::Edge(3),
-        _ => Place::Interior,
+        (true, _, true, _) => FacetPlace::Vertex(0),
+        (_, true, true, _) => FacetPlace::Vertex(1),
+        (_, true, _, true) => FacetPlace::Vertex(2),
+        (true, _, _, true) => FacetPlace::Vertex(3),
+        (_, _, true, _) => FacetPlace::Edge(0),
+        (_, true, _, _) => FacetPlace::Edge(1),
+        (_, _, _, true) => FacetPlace::Edge(2),
+        (true, _, _, _) => FacetPlace::Edge(3),
+        _ => FacetPlace::Interior,
     }
 }
 

@@ -24,8 +24,8 @@ pub struct Interface {
     pub name: String,
     /// Slave nodes, in the order in which their contacts are numbered.
     pub slave: Vec<u32>,
-    /// Tributary reference area of each slave node \[m^2\]; in the plane, \[m\] times unit thickness. A node without area
-    /// touches the master like the others, but has no bond.
+    /// Tributary reference area of each slave node \[m^2\]; in the plane, \[m\] times unit thickness. A node without
+    /// area touches the master like the others, but has no bond.
     pub area: Vec<f64>,
     /// What the nodes may touch.
     pub master: Master,
@@ -44,8 +44,8 @@ pub struct Interface {
     pub adhesion: Option<Adhesion>,
 }
 
-/// Default of [`Interface::rim_tolerance`] \[-\]: far above the round-off of a node that lies on the rim itself, far below
-/// what a surface bulges. Where flush bodies deform, give a ledge that they may bulge by.
+/// Default of [`Interface::rim_tolerance`] \[-\]: far above the round-off of a node that lies on the rim itself, far
+/// below what a surface bulges. Where flush bodies deform, give a ledge that they may bulge by.
 pub const RIM_ROUND_OFF: f64 = 1e-6;
 
 impl Interface {

@@ -7,7 +7,8 @@ use crate::geometry::facet::facet_normal;
 use crate::geometry::interface::{Interface, Master};
 use crate::geometry::vector::{at_node, reject, unit};
 
-/// A right-handed orthonormal frame \[-\], columns `e1`, `e2`, `m`, that turns with the material of an interface's master.
+/// A right-handed orthonormal frame \[-\], columns `e1`, `e2`, `m`, that turns with the material of an interface's
+/// master.
 ///
 /// On facet `facet` of a deformable master `m` is the facet's own normal (of a quadrilateral, at its middle), `e1`
 /// the direction from its first to its second node, across `m`, and `e2 = m x e1`, which is `e_z` in the plane.

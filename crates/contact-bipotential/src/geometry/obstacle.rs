@@ -9,8 +9,8 @@ use crate::geometry::vector::{reject, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
 ///
-/// In the plane z = 0 a sphere is a disc, a cylinder along z too, a cone a wedge, a punch a strip; in axisymmetry a sphere,
-/// cone or punch on the axis is itself.
+/// In the plane z = 0 a sphere is a disc, a cylinder along z too, a cone a wedge, a punch a strip; in axisymmetry a
+/// sphere, cone or punch on the axis is itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// A half-space.

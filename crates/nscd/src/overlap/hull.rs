@@ -1,7 +1,7 @@
 //! The boundary of the bodies on one side of an interface, and the nodes of the other side that may lie inside.
 
 use contact_bipotential::Master;
-use contact_bipotential::facet::closest_point;
+use contact_bipotential::closest_point;
 use fe_core::{Facet, Surface};
 use nalgebra::Vector3;
 use rayon::prelude::*;

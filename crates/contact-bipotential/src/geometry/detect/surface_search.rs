@@ -10,8 +10,9 @@ use parry3d_f64::partitioning::{
     Bvh, BvhBuildStrategy, BvhLeafUpdateStatus, BvhNode, BvhWorkspace, TraversalAction,
 };
 
+use super::rims::{Corners, Rims};
 use crate::geometry::facet::{
-    FacetPoint, Place, closest_point, conormal, facet_normal, interpolate, vertex_coordinates,
+    FacetPlace, FacetPoint, closest_point, conormal, facet_normal, interpolate, vertex_coordinates,
 };
 use crate::geometry::vector::{at_node, unit};
 
@@ -19,15 +20,15 @@ use crate::geometry::vector::{at_node, unit};
 const TIE: f64 = 1e-12;
 /// .. or to this part of the facet's size, squared: round-off of a node that lies on the surface.
 const TIE_AT_ZERO: f64 = 1e-28;
-/// By how much the boxes of the tree are larger than their facets, over the reach of the search \[-\]: a master may move
-/// that far before the tree changes, and the larger it is, the more candidates are looked at.
+/// By how much the boxes of the tree are larger than their facets, over the reach of the search \[-\]: a master may
+/// move that far before the tree changes, and the larger it is, the more candidates are looked at.
 const PADDING: f64 = 0.1;
 
 /// A slave node's place on a master surface.
 pub(super) struct SurfaceContact {
     pub(super) facet: u32,
-    pub(super) nodes: [u32; 4],
-    pub(super) count: usize,
+    /// Nodes of the facet in the mesh.
+    pub(super) nodes: Corners,
     pub(super) weights: [f64; 4],
     pub(super) normal: Vector3<f64>,
     pub(super) gap: f64,
@@ -92,13 +93,8 @@ pub(super) struct SurfaceSearch {
     rim_tolerance: f64,
     dim: usize,
     nodes: Vec<u32>,
-    /// Surface indices of each facet's nodes, and how many.
-    facets: Vec<([u32; 4], u8)>,
-    /// Bit `k`: side `k` of the facet (edge of a face, vertex of a line) belongs to no other facet.
-    rim_sides: Vec<u8>,
-    /// Rim sides (facet, side) at each surface node: `rims[rim_starts[i]..rim_starts[i + 1]]`.
-    rim_starts: Vec<usize>,
-    rims: Vec<(u32, u8)>,
+    facets: Vec<Corners>,
+    rims: Rims,
     /// Surface indices of the nodes on the axis of symmetry.
     axis: Vec<usize>,
     points: Vec<Vector3<f64>>,
@@ -118,25 +114,16 @@ impl std::fmt::Debug for SurfaceSearch {
 
 impl SurfaceSearch {
     pub(super) fn new(surface: &Surface, reach: f64, rim_tolerance: f64) -> Self {
-        let facets: Vec<([u32; 4], u8)> = (0..surface.facets.len())
-            .map(|f| {
-                let corners = surface.corners(f);
-                let mut local = [0; 4];
-                local[..corners.len()].copy_from_slice(corners);
-                (local, corners.len() as u8)
-            })
+        let facets: Vec<Corners> = (0..surface.facets.len())
+            .map(|f| Corners::new(surface.corners(f)))
             .collect();
-        let rim_sides = rim_sides(&facets);
-        let (rim_starts, rims) = rims_at_nodes(&facets, &rim_sides, surface.nodes.len());
         Self {
             reach,
             rim_tolerance,
             dim: surface.dim(),
             nodes: surface.nodes.clone(),
+            rims: Rims::new(&facets, surface.nodes.len()),
             facets,
-            rim_sides,
-            rim_starts,
-            rims,
             axis: Vec::new(),
             points: Vec::new(),
             normals: Vec::new(),
@@ -149,13 +136,7 @@ impl SurfaceSearch {
     /// Continues a chain across x = 0 by its mirror image: its ends there are no rims, and their normals run along y.
     pub(super) fn mirror_at_axis(&mut self, is_on_axis: impl Fn(u32) -> bool) {
         let on_axis: Vec<bool> = self.nodes.iter().map(|node| is_on_axis(*node)).collect();
-        for ((corners, count), mask) in self.facets.iter().zip(&mut self.rim_sides) {
-            for (k, corner) in corners[..*count as usize].iter().enumerate() {
-                *mask &= !(u8::from(on_axis[*corner as usize]) << k);
-            }
-        }
-        (self.rim_starts, self.rims) =
-            rims_at_nodes(&self.facets, &self.rim_sides, self.nodes.len());
+        self.rims = self.rims.without(&self.facets, &on_axis);
         self.axis = (0..on_axis.len()).filter(|i| on_axis[*i]).collect();
     }
 
@@ -185,10 +166,9 @@ impl SurfaceSearch {
     /// candidate is tested again with its exact box.
     pub(super) fn refit(&mut self) -> bool {
         self.boxes.clear();
-        for (corners, count) in &self.facets {
-            let corners = &corners[..*count as usize];
-            self.boxes
-                .push(Extent::of(corners.iter().map(|i| self.points[*i as usize])));
+        for facet in &self.facets {
+            let corners = facet.indices().iter().map(|i| self.points[*i as usize]);
+            self.boxes.push(Extent::of(corners));
         }
         let pad = PADDING * self.reach;
         let Some(tree) = &mut self.tree else {
@@ -226,13 +206,9 @@ impl SurfaceSearch {
                 return TraversalAction::Prune;
             }
             if let Some(facet) = node.leaf_data() {
-                let (corners, count) = &self.facets[facet as usize];
-                let nearest = corners[..*count as usize]
-                    .iter()
-                    .map(|i| {
-                        let r = self.points[*i as usize] - x;
-                        r.norm_squared()
-                    })
+                let corners = self.facets[facet as usize].indices().iter();
+                let nearest = corners
+                    .map(|i| (self.points[*i as usize] - x).norm_squared())
                     .fold(f64::INFINITY, f64::min);
                 let extent = &self.boxes[facet as usize];
                 found.push((extent.distance_squared(x), facet));
@@ -243,17 +219,12 @@ impl SurfaceSearch {
         });
     }
 
-    fn vertices<'a>(&self, facet: u32, buffer: &'a mut [Vector3<f64>; 4]) -> &'a [Vector3<f64>] {
-        let (corners, count) = &self.facets[facet as usize];
-        for (x, i) in buffer.iter_mut().zip(corners) {
-            *x = self.points[*i as usize];
-        }
-        &buffer[..*count as usize]
-    }
-
     fn project(&self, facet: u32, x: Vector3<f64>) -> FacetPoint {
         let mut buffer = [Vector3::zeros(); 4];
-        closest_point(self.vertices(facet, &mut buffer), x)
+        closest_point(
+            gather(&self.points, &self.facets[facet as usize], &mut buffer),
+            x,
+        )
     }
 
     /// The contact of a node at `x`, if the surface is within reach; `found` is scratch.
@@ -294,28 +265,26 @@ impl SurfaceSearch {
     }
 
     fn contact(&self, x: Vector3<f64>, facet: u32, at: &FacetPoint) -> Option<SurfaceContact> {
-        let (corners, count) = &self.facets[facet as usize];
-        let count = *count as usize;
-        let corner_normals: [Vector3<f64>; 4] = corners.map(|i| self.normals[i as usize]);
-        let mut buffer = [Vector3::zeros(); 4];
-        let vertices = self.vertices(facet, &mut buffer);
-        let normal = unit(interpolate(&corner_normals[..count], &at.weights))
+        let corners = &self.facets[facet as usize];
+        let [mut vertices, mut normals] = [[Vector3::zeros(); 4]; 2];
+        let vertices = gather(&self.points, corners, &mut vertices);
+        let normals = gather(&self.normals, corners, &mut normals);
+        let normal = unit(interpolate(normals, &at.weights))
             .or_else(|| facet_normal(vertices, at.coordinates))?;
         let whole = x - at.point;
         let offset = self.without_overhang(whole, facet, at)?;
         // The signed distance, not n . offset: the same on a flat surface, and continuous where the
         // closest point jumps from one side of a valley to the other, as n is not.
         let along_a_normal = match at.place {
-            Place::Interior => facet_normal(vertices, at.coordinates).map(|m| m.dot(&offset)),
+            FacetPlace::Interior => facet_normal(vertices, at.coordinates).map(|m| m.dot(&offset)),
             // Two rims that meet at an angle leave some overhang of each other, which is no gap.
-            Place::Vertex(_) if offset != whole => Some(normal.dot(&offset)),
+            FacetPlace::Vertex(_) if offset != whole => Some(normal.dot(&offset)),
             _ => None,
         };
         let gap = along_a_normal.unwrap_or_else(|| offset.norm().copysign(normal.dot(&offset)));
         Some(SurfaceContact {
             facet,
             nodes: corners.map(|i| self.nodes[i as usize]),
-            count,
             weights: at.weights,
             normal,
             gap,
@@ -335,21 +304,18 @@ impl SurfaceSearch {
         at: &FacetPoint,
     ) -> Option<Vector3<f64>> {
         match at.place {
-            Place::Interior => Some(offset),
-            Place::Edge(k) if self.rim_sides[facet as usize] & (1 << k) == 0 => Some(offset),
-            Place::Edge(k) => {
+            FacetPlace::Interior => Some(offset),
+            FacetPlace::Edge(k) if !self.rims.is_rim(facet, k) => Some(offset),
+            FacetPlace::Edge(k) => {
                 offset = self.clip(offset, facet, k as usize, at.coordinates)?;
                 Some(offset)
             }
-            Place::Vertex(k) => {
-                let node = self.facets[facet as usize].0[k as usize] as usize;
-                for (facet, side) in &self.rims[self.rim_starts[node]..self.rim_starts[node + 1]] {
-                    let (corners, count) = &self.facets[*facet as usize];
-                    let own = corners
-                        .iter()
-                        .position(|c| *c as usize == node)
-                        .unwrap_or(0);
-                    let coordinates = vertex_coordinates(*count as usize, own);
+            FacetPlace::Vertex(k) => {
+                let node = self.facets[facet as usize].indices()[k as usize];
+                for (facet, side) in self.rims.at_node(node) {
+                    let corners = self.facets[*facet as usize].indices();
+                    let own = corners.iter().position(|c| *c == node).unwrap_or(0);
+                    let coordinates = vertex_coordinates(corners.len(), own);
                     offset = self.clip(offset, *facet, *side as usize, coordinates)?;
                 }
                 Some(offset)
@@ -365,11 +331,28 @@ impl SurfaceSearch {
         coordinates: [f64; 2],
     ) -> Option<Vector3<f64>> {
         let mut buffer = [Vector3::zeros(); 4];
-        let outward = conormal(self.vertices(facet, &mut buffer), side, coordinates);
+        let outward = conormal(
+            gather(&self.points, &self.facets[facet as usize], &mut buffer),
+            side,
+            coordinates,
+        );
         let overhang = offset.dot(&outward).max(0.0);
         let tolerance = self.rim_tolerance * self.boxes[facet as usize].size();
         (overhang <= tolerance).then(|| offset - overhang * outward)
     }
+}
+
+/// What belongs to the corners of a facet, out of a list by surface index.
+fn gather<'a>(
+    values: &[Vector3<f64>],
+    corners: &Corners,
+    buffer: &'a mut [Vector3<f64>; 4],
+) -> &'a [Vector3<f64>] {
+    let indices = corners.indices();
+    for (value, i) in buffer.iter_mut().zip(indices) {
+        *value = values[*i as usize];
+    }
+    &buffer[..indices.len()]
 }
 
 fn tie(distance_squared: f64, extent: &Extent) -> f64 {
@@ -384,57 +367,4 @@ fn node_distance_squared(node: &BvhNode, x: Vector3<f64>) -> f64 {
         max: Vector3::new(max.x, max.y, max.z),
     }
     .distance_squared(x)
-}
-
-/// The nodes of side `k` of a facet, the same for all facets that share it: an edge of a face, a vertex of a line
-/// (twice). A collapsed side (a quadrilateral with two equal nodes) bounds nothing.
-fn side_nodes((corners, count): &([u32; 4], u8), k: usize) -> Option<(u32, u32)> {
-    let (a, b) = (corners[k], corners[(k + 1) % *count as usize]);
-    match (a == b, *count) {
-        (true, _) => None,
-        (false, 2) => Some((a, a)),
-        (false, _) => Some((a.min(b), a.max(b))),
-    }
-}
-
-/// Bit mask per facet of the sides that no other facet shares.
-fn rim_sides(facets: &[([u32; 4], u8)]) -> Vec<u8> {
-    let mut sides: Vec<((u32, u32), usize, usize)> = Vec::new();
-    for (f, facet) in facets.iter().enumerate() {
-        let own = (0..facet.1 as usize).filter_map(|k| Some((side_nodes(facet, k)?, f, k)));
-        sides.extend(own);
-    }
-    sides.sort_unstable();
-    let mut mask = vec![0; facets.len()];
-    for same in sides.chunk_by(|a, b| a.0 == b.0) {
-        if let [(_, f, k)] = same {
-            mask[*f] |= 1 << k;
-        }
-    }
-    mask
-}
-
-fn rims_at_nodes(
-    facets: &[([u32; 4], u8)],
-    rim_sides: &[u8],
-    nodes: usize,
-) -> (Vec<usize>, Vec<(u32, u8)>) {
-    let mut all: Vec<(u32, u32, u8)> = Vec::new();
-    for (f, facet) in facets.iter().enumerate() {
-        for k in (0..facet.1 as usize).filter(|k| rim_sides[f] & (1 << k) != 0) {
-            if let Some((a, b)) = side_nodes(facet, k) {
-                all.extend([(a, f as u32, k as u8), (b, f as u32, k as u8)]);
-            }
-        }
-    }
-    all.sort_unstable();
-    all.dedup();
-    let mut starts = vec![0; nodes + 1];
-    for (node, ..) in &all {
-        starts[*node as usize + 1] += 1;
-    }
-    for i in 0..nodes {
-        starts[i + 1] += starts[i];
-    }
-    (starts, all.into_iter().map(|(_, f, k)| (f, k)).collect())
 }

@@ -135,15 +135,15 @@ proptest! {
         prop_assert!((c.weights.iter().sum::<f64>() - 1.0).abs() < 1e-15);
         prop_assert!((interpolate(&x, &c.weights) - c.point).norm() < 1e-13 * (size(&x) + c.point.norm()));
         match c.place {
-            Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
-            Place::Edge(k) => {
+            FacetPlace::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
+            FacetPlace::Edge(k) => {
                 let (k, l) = (k as usize, (k as usize + 1) % x.len());
                 for i in (0..4).filter(|i| *i != k && *i != l) {
                     prop_assert_eq!(c.weights[i], 0.0);
                 }
                 prop_assert!(c.weights[k] > 0.0 && c.weights[l] > 0.0);
             }
-            Place::Interior => prop_assert!(c.weights[..x.len()].iter().all(|w| *w > 0.0)),
+            FacetPlace::Interior => prop_assert!(c.weights[..x.len()].iter().all(|w| *w > 0.0)),
         }
     }
 
@@ -206,16 +206,16 @@ fn clamping_tells_edge_and_vertex() {
         Vector3::new(0.0, 2.0, 0.0),
     ];
     let place = |p| closest_point(&x, p).place;
-    assert_eq!(place(Vector3::new(1.0, 1.0, 3.0)), Place::Interior);
-    assert_eq!(place(Vector3::new(1.0, -1.0, 3.0)), Place::Edge(0));
-    assert_eq!(place(Vector3::new(3.0, 1.0, 3.0)), Place::Edge(1));
-    assert_eq!(place(Vector3::new(1.0, 3.0, 3.0)), Place::Edge(2));
-    assert_eq!(place(Vector3::new(-1.0, 1.0, 3.0)), Place::Edge(3));
-    assert_eq!(place(Vector3::new(3.0, 3.0, 1.0)), Place::Vertex(2));
+    assert_eq!(place(Vector3::new(1.0, 1.0, 3.0)), FacetPlace::Interior);
+    assert_eq!(place(Vector3::new(1.0, -1.0, 3.0)), FacetPlace::Edge(0));
+    assert_eq!(place(Vector3::new(3.0, 1.0, 3.0)), FacetPlace::Edge(1));
+    assert_eq!(place(Vector3::new(1.0, 3.0, 3.0)), FacetPlace::Edge(2));
+    assert_eq!(place(Vector3::new(-1.0, 1.0, 3.0)), FacetPlace::Edge(3));
+    assert_eq!(place(Vector3::new(3.0, 3.0, 1.0)), FacetPlace::Vertex(2));
     let place = |p| closest_point(&x[..3], p).place;
-    assert_eq!(place(Vector3::new(1.5, 0.5, 3.0)), Place::Interior);
-    assert_eq!(place(Vector3::new(0.5, 1.5, 3.0)), Place::Edge(2));
-    assert_eq!(place(Vector3::new(9.0, 2.5, 3.0)), Place::Vertex(2));
+    assert_eq!(place(Vector3::new(1.5, 0.5, 3.0)), FacetPlace::Interior);
+    assert_eq!(place(Vector3::new(0.5, 1.5, 3.0)), FacetPlace::Edge(2));
+    assert_eq!(place(Vector3::new(9.0, 2.5, 3.0)), FacetPlace::Vertex(2));
 }
 
 #[test]
@@ -263,13 +263,13 @@ proptest! {
         prop_assert!((a * x[0] + b * x[1] - c.point).norm() < 1e-14);
         prop_assert!(((c.point - p).norm() - d).abs() < 1e-14);
         match c.place {
-            Place::Interior => {
+            FacetPlace::Interior => {
                 let m = facet_normal(&x, c.coordinates).unwrap();
                 prop_assert!(a > 0.0 && b > 0.0);
                 prop_assert!((m.dot(&(p - c.point)).abs() - d).abs() < 1e-13);
             }
-            Place::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
-            Place::Edge(_) => prop_assert!(false, "a line has no edges"),
+            FacetPlace::Vertex(k) => prop_assert_eq!(c.weights[k as usize], 1.0),
+            FacetPlace::Edge(_) => prop_assert!(false, "a line has no edges"),
         }
     }
 }
@@ -284,9 +284,9 @@ fn a_line_has_its_body_on_the_left_and_ends_in_points() {
     assert_eq!(conormal(&x, 0, [0.0; 2]), Vector3::new(-1.0, 0.0, 0.0));
     assert_eq!(conormal(&x, 1, vertex_coordinates(2, 1)), Vector3::x());
     let place = |p| closest_point(&x, p).place;
-    assert_eq!(place(Vector3::new(-1.0, 1.0, 0.0)), Place::Vertex(0));
-    assert_eq!(place(Vector3::new(0.5, -1.0, 0.0)), Place::Interior);
-    assert_eq!(place(Vector3::new(2.5, 0.0, 0.0)), Place::Vertex(1));
+    assert_eq!(place(Vector3::new(-1.0, 1.0, 0.0)), FacetPlace::Vertex(0));
+    assert_eq!(place(Vector3::new(0.5, -1.0, 0.0)), FacetPlace::Interior);
+    assert_eq!(place(Vector3::new(2.5, 0.0, 0.0)), FacetPlace::Vertex(1));
     let collapsed = [x[1], x[1]];
     assert_eq!(closest_point(&collapsed, x[0]).point, x[1]);
     assert_eq!(facet_normal(&collapsed, [0.0; 2]), None);

@@ -223,7 +223,8 @@ impl<const P: usize> Scratch<P> {
 }
 
 impl ContactMap {
-    /// Writes `W = H C H^T` \[m/N\] into `w`, resized to [`row_count`](ContactMap::row_count) squared; exactly symmetric.
+    /// Writes `W = H C H^T` \[m/N\] into `w`, resized to [`row_count`](ContactMap::row_count) squared; exactly
+    /// symmetric.
     ///
     /// `C` is the sum of the bodies' compliances: two contacts couple through the bodies they share. Costs about
     /// `contacts^2 * stencil * 9` multiplications; only the lower triangle is computed. Columns are spread over

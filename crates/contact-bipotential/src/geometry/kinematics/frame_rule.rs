@@ -7,8 +7,8 @@ use crate::geometry::vector::{reject, unit};
 /// A direction no mesh is aligned with, for interfaces without a typical normal: its opposite, where the rule is not
 /// continuous, is then as good as never met.
 const UNALIGNED: Vector3<f64> = Vector3::new(0.365_148, 0.547_723, 0.752_772);
-/// Least `1 + cos` of the angle between anchor and normal \[-\] for which the smallest rotation between them is told from
-/// round-off: nearer to the antipode than 1e-4 rad half a turn stands for it.
+/// Least `1 + cos` of the angle between anchor and normal \[-\] for which the smallest rotation between them is told
+/// from round-off: nearer to the antipode than 1e-4 rad half a turn stands for it.
 const ANTIPODE: f64 = 1e-8;
 
 /// A rule that completes a unit normal to a frame, continuous in the normal.
