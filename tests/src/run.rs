@@ -7,10 +7,10 @@ use nscd::{Observer, State, StepReport, Stepper, Totals, march};
 use scenarios::build::{Built, build};
 use scenarios::catalog;
 use scenarios::clock::Stopwatch;
-use scenarios::output::{History, Layout, Status, Summary};
+use scenarios::output::{History, Status, Summary};
 use scenarios::row::{first_row, row};
 use scenarios::run::summarise;
-use scenarios::spec::{LoadedScene, Override, Scene, parse};
+use scenarios::spec::{Layout, LoadedScene, Override, Scene, parse};
 
 /// Runs at a time of [`compute_all`].
 const AT_A_TIME: usize = 2;
@@ -252,7 +252,7 @@ impl<'a> Keeper<'a> {
     fn new(scene: &'a Scene, built: &'a Built, times: &'a [f64], start: &State) -> Keeper<'a> {
         let layout = Layout::of(scene);
         let mut history = History::new(layout.header());
-        history.push(layout.numbers(&first_row(scene, built, start)));
+        history.push(first_row(scene, built, start).numbers(&layout));
         Keeper {
             scene,
             built,
@@ -273,7 +273,7 @@ impl Observer for Keeper<'_> {
         totals: &Totals,
     ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let row = row(self.scene, self.built, state, report, totals);
-        self.history.push(self.layout.numbers(&row));
+        self.history.push(row.numbers(&self.layout));
         // Sums of steps reach a time only to round-off.
         let slack = 1e-6 * self.built.span.dt;
         let wanted = |kept: usize| self.times.get(kept);

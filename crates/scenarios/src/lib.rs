@@ -7,6 +7,7 @@ pub mod build;
 pub mod catalog;
 pub mod clock;
 pub mod contacts;
+mod energies;
 pub mod fclib;
 pub mod fields;
 pub mod output;

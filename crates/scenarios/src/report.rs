@@ -2,55 +2,15 @@
 
 use std::fmt::Write as _;
 
+use crate::energies::ENERGY_TERMS;
 use crate::output::{Status, Summary};
-use crate::spec::{Dilatation, Inertia, Law, Master, Scene, Symmetry};
+use crate::spec::{Body, Dilatation, Inertia, Interface, Law, Master, Prescribed, Scene, Symmetry};
 
 /// A short description of a checked scene: bodies, unknowns, interfaces, steps.
 pub fn description(name: &str, scene: &Scene) -> String {
-    let mut text = format!("{name}: {}\n", scene.title);
-    let mut rows = Vec::new();
-    for (name, body) in &scene.bodies {
-        let size = body.mesh.size(scene.refine);
-        let law = scene
-            .materials
-            .get(&body.material)
-            .map_or("?", |material| law_name(&material.law));
-        let mut counts = format!(
-            "{} elements, {} nodes, {law} `{}`",
-            size.elements, size.nodes, body.material
-        );
-        if body.dilatation == Dilatation::Projected {
-            counts += ", dilatation projected";
-        }
-        rows.push((format!("body {name}"), counts));
-    }
-    for (name, interface) in &scene.interfaces {
-        let master = match &interface.master {
-            Master::Facets(facets) => format!("`{facets}`"),
-            Master::Plane { .. } => "rigid plane".into(),
-            Master::Sphere { .. } => "rigid sphere".into(),
-            Master::Cylinder { .. } => "rigid cylinder".into(),
-            Master::Cone { .. } => "rigid cone".into(),
-            Master::Punch { .. } => "rigid punch".into(),
-        };
-        let mut words = format!("`{}` on {master}, mu = {}", interface.slave, interface.mu);
-        if let Some(bonds) = &interface.adhesion {
-            let _ = write!(words, ", adhesion w = {} J/m^2", bonds.energy);
-        }
-        rows.push((format!("interface {name}"), words));
-    }
-    for (name, given) in &scene.motions {
-        let mut components = given.components.clone();
-        components.retain(|c| c != 'z' || !scene.is_plane());
-        rows.push((
-            format!("motion {name}"),
-            format!("`{}`, components {}", given.nodes, components),
-        ));
-    }
-    let inertia = match scene.time.inertia {
-        Inertia::Dynamic => "dynamic",
-        Inertia::QuasiStatic => "quasi-static",
-    };
+    let mut rows: Rows = scene.bodies.iter().map(|b| body_row(scene, b)).collect();
+    rows.extend(scene.interfaces.iter().map(interface_row));
+    rows.extend(scene.motions.iter().map(|m| motion_row(scene, m)));
     if scene.is_plane() {
         let section = match scene.symmetry.unwrap_or_default() {
             Symmetry::PlaneStrain => "plane strain, of 1 m thickness",
@@ -60,24 +20,57 @@ pub fn description(name: &str, scene: &Scene) -> String {
     }
     let size = scene.size();
     rows.push(("elements".into(), size.elements.to_string()));
-    rows.push((
-        "dofs".into(),
-        format!("{} (prescribed ones included)", size.dofs),
-    ));
-    rows.push((
-        "steps".into(),
-        format!(
-            "{} of {} s to {} s, {inertia}",
-            scene.step_count(),
-            scene.time.dt,
-            scene.time.end
-        ),
-    ));
-    text += &aligned(&rows);
+    let dofs = format!("{} (prescribed ones included)", size.dofs);
+    rows.push(("dofs".into(), dofs));
+    let inertia = match scene.time.inertia {
+        Inertia::Dynamic => "dynamic",
+        Inertia::QuasiStatic => "quasi-static",
+    };
+    let (count, time) = (scene.step_count(), &scene.time);
+    let steps = format!("{count} of {} s to {} s, {inertia}", time.dt, time.end);
+    rows.push(("steps".into(), steps));
+    let mut text = format!("{name}: {}\n{}", scene.title, aligned(&rows));
     for warning in scene.warnings() {
         let _ = writeln!(text, "warning: {warning}");
     }
     text
+}
+
+fn body_row(scene: &Scene, (name, body): (&String, &Body)) -> (String, String) {
+    let size = body.mesh.size(scene.refine);
+    let material = scene.materials.get(&body.material);
+    let law = material.map_or("?", |material| law_name(&material.law));
+    let mut counts = format!(
+        "{} elements, {} nodes, {law} `{}`",
+        size.elements, size.nodes, body.material
+    );
+    if body.dilatation == Dilatation::Projected {
+        counts += ", dilatation projected";
+    }
+    (format!("body {name}"), counts)
+}
+
+fn interface_row((name, interface): (&String, &Interface)) -> (String, String) {
+    let master = match &interface.master {
+        Master::Facets(facets) => format!("`{facets}`"),
+        Master::Plane { .. } => "rigid plane".into(),
+        Master::Sphere { .. } => "rigid sphere".into(),
+        Master::Cylinder { .. } => "rigid cylinder".into(),
+        Master::Cone { .. } => "rigid cone".into(),
+        Master::Punch { .. } => "rigid punch".into(),
+    };
+    let mut words = format!("`{}` on {master}, mu = {}", interface.slave, interface.mu);
+    if let Some(bonds) = &interface.adhesion {
+        let _ = write!(words, ", adhesion w = {} J/m^2", bonds.energy);
+    }
+    (format!("interface {name}"), words)
+}
+
+fn motion_row(scene: &Scene, (name, given): (&String, &Prescribed)) -> (String, String) {
+    let mut components = given.components.clone();
+    components.retain(|c| c != 'z' || !scene.is_plane());
+    let words = format!("`{}`, components {components}", given.nodes);
+    (format!("motion {name}"), words)
 }
 
 fn law_name(law: &Law) -> &'static str {
@@ -190,21 +183,16 @@ fn phases(summary: &Summary) -> Rows {
 fn energies(summary: &Summary) -> Rows {
     let energy = &summary.energy;
     let joule = |name: &str, value: f64| (name.to_owned(), format!("{value:.6e}"));
-    vec![
+    let terms = ENERGY_TERMS.iter();
+    let terms = terms.map(|term| joule(term.words, (term.value)(&energy.terms)));
+    let mut rows = vec![
         ("Energy [J]".to_owned(), String::new()),
         joule("initial", energy.initial),
         joule("final", energy.end),
-        joule("- kinetic", energy.kinetic),
-        joule("- strain", energy.strain),
-        joule("- adhesive", energy.adhesive),
-        joule("load work", energy.load_work),
-        joule("friction dissipation", energy.friction_dissipation),
-        joule("bond dissipation", energy.bond_dissipation),
-        joule("damping dissipation", energy.damping_dissipation),
-        joule("impact loss", energy.impact_loss),
-        joule("integration error", energy.integration_error),
-        joule("unexplained", energy.unexplained()),
-    ]
+    ];
+    rows.extend(terms);
+    rows.push(joule("unexplained", energy.unexplained()));
+    rows
 }
 
 /// Lines of cells under each other, all of the same number of cells: numbers to the right, the columns in `words` to the left.

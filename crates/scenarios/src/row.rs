@@ -4,8 +4,9 @@ use nscd::{Resultant, State, StepReport, Totals};
 
 use crate::build::Built;
 use crate::contacts::{self, NodeContact};
+use crate::energies::Energies;
 use crate::fields::Fields;
-use crate::output::{Energies, Force, Row};
+use crate::output::{Force, Row};
 use crate::spec::{Quantity, Scene};
 
 /// The row of an accepted step.

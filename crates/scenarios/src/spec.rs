@@ -11,25 +11,31 @@ mod body;
 mod check;
 mod error;
 mod interface;
+mod layout;
 mod load;
 mod locate;
 mod material;
 mod motion;
+mod near;
 mod overrides;
 mod paths;
 mod request;
+mod source;
 mod time;
 
 pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Symmetry};
-pub use error::{Fault, SceneError};
+pub use error::SceneError;
 pub use interface::{Adhesion, Interface, Master, Stiffness};
-pub use load::{LoadedScene, Source, parse};
+pub use layout::{Layout, ProbeColumns};
+pub use load::{LoadedScene, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};
 pub use material::{BuiltLaw, Law, LawError, Material};
 pub use motion::{Load, Motion, Prescribed, Rotation, Table};
-pub use overrides::{Override, near_names};
+pub use near::near_names;
+pub use overrides::Override;
 pub use paths::field_paths;
 pub use request::{FieldsEvery, Output, Plot, Probe, Quantity};
+pub use source::{Fault, Source};
 pub use time::{MassKind, Solver, Time};
 
 // Choices and shapes that the libraries name; their feature `serde` reads them.

@@ -11,8 +11,31 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::output::{Folder, History, OutputError, Status, Summary};
 use crate::run::{Options, run_with};
+use crate::spec::LoadedScene;
 
-pub use plan::{Planned, Sweep, SweepError, Vary};
+pub use plan::{SweepError, Vary};
+
+/// All runs of a study, checked.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The varied fields as they were asked for.
+    pub names: Vec<String>,
+    /// Their full paths.
+    pub paths: Vec<String>,
+    /// All combinations; the last field varies fastest.
+    pub runs: Vec<Planned>,
+}
+
+/// One run of a sweep.
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// Name of its folder, `<number>_<field>=<value>..`.
+    pub folder: String,
+    /// Value of each varied field.
+    pub values: Vec<String>,
+    /// Its scene.
+    pub scene: LoadedScene,
+}
 
 /// How one run of a sweep ended.
 #[derive(Clone, Debug)]

@@ -12,7 +12,8 @@ mod scale;
 mod style;
 
 use self::style::picture;
-use super::{ENERGY_COLUMNS, History};
+use super::History;
+use crate::energies::ENERGY_TERMS;
 
 pub use self::chart::{Axis, Band, Chart, Curve, Pen, charts_svg};
 pub use self::deformed::deformed_svg;
@@ -31,9 +32,9 @@ pub fn energy_svg(title: &str, history: &History) -> Result<String, String> {
     let time = history.column("t").unwrap_or_default();
     let mut total = vec![0.0; time.len()];
     let mut curves = Vec::new();
-    for (i, column) in ENERGY_COLUMNS.iter().enumerate() {
-        let values = history.column(column).unwrap_or_default();
-        if column.starts_with("energy.") {
+    for (i, term) in ENERGY_TERMS.iter().enumerate() {
+        let values = history.column(term.column).unwrap_or_default();
+        if term.is_stored() {
             total
                 .iter_mut()
                 .zip(&values)
@@ -42,7 +43,7 @@ pub fn energy_svg(title: &str, history: &History) -> Result<String, String> {
         if values.iter().any(|value| *value != 0.0) {
             curves.push(Curve {
                 pen: Pen::Color(i),
-                ..Curve::new(spoken(column), &time, &values)
+                ..Curve::new(spoken(term.column), &time, &values)
             });
         }
     }

@@ -5,11 +5,11 @@ use std::path::Path;
 use contact_bipotential::ContactProblem;
 
 use super::{
-    Folder, Frame, History, HistoryFile, Layout, OutputError, Row, Summary, deformed_svg,
-    energy_svg, labels, series_svg, vtu_bytes, write_pvd,
+    Folder, Frame, History, HistoryFile, OutputError, Row, Summary, deformed_svg, energy_svg,
+    labels, series_svg, vtu_bytes, write_pvd,
 };
 use crate::fclib;
-use crate::spec::{FieldsEvery, Plot, Scene};
+use crate::spec::{FieldsEvery, Layout, Plot, Scene};
 
 /// Writer of a run's results. Call [`Results::create`] before anything is computed, [`Results::start`] with the
 /// initial state, [`Results::record`] after each accepted step, [`Results::frame`] when [`Results::wants_frame`]
@@ -117,7 +117,7 @@ impl Results {
 
     /// The state at the start: curves begin there, `history.csv` has accepted steps only.
     pub fn start(&mut self, row: &Row) {
-        self.history.push(self.layout.numbers(row));
+        self.history.push(row.numbers(&self.layout));
     }
 
     /// Writes the contact problem of a step as FCLib, `contact_step_N.hdf5`.
@@ -143,7 +143,7 @@ impl Results {
     /// # Errors
     /// [`OutputError::File`].
     pub fn record(&mut self, row: &Row) -> Result<(), OutputError> {
-        let numbers = self.layout.numbers(row);
+        let numbers = row.numbers(&self.layout);
         self.file.push(&numbers)?;
         self.history.push(numbers);
         Ok(())

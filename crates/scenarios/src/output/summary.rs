@@ -3,7 +3,8 @@
 use indexmap::IndexMap;
 use serde::{Deserialize, Serialize};
 
-use super::{Energies, Folder, OutputError};
+use super::{Folder, OutputError};
+use crate::energies::Energies;
 
 /// How the run ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -75,24 +76,9 @@ pub struct EnergySummary {
     /// The same at the end \[J\].
     #[serde(rename = "final")]
     pub end: f64,
-    /// Kinetic energy at the end \[J\].
-    pub kinetic: f64,
-    /// Strain energy at the end \[J\].
-    pub strain: f64,
-    /// Energy of the adhesive bonds at the end \[J\].
-    pub adhesive: f64,
-    /// Work of loads and prescribed motions \[J\].
-    pub load_work: f64,
-    /// Dissipated by friction \[J\].
-    pub friction_dissipation: f64,
-    /// Dissipated by bonds \[J\].
-    pub bond_dissipation: f64,
-    /// Dissipated by damping \[J\].
-    pub damping_dissipation: f64,
-    /// Lost by contacts that close \[J\].
-    pub impact_loss: f64,
-    /// Lost (positive) or gained (negative) by the time integration \[J\].
-    pub integration_error: f64,
+    /// The terms at the end.
+    #[serde(flatten)]
+    pub terms: Energies,
 }
 
 impl EnergySummary {
@@ -100,16 +86,8 @@ impl EnergySummary {
     pub fn new(initial: f64, end: &Energies) -> EnergySummary {
         EnergySummary {
             initial,
-            end: end.total(),
-            kinetic: end.kinetic,
-            strain: end.strain,
-            adhesive: end.adhesive,
-            load_work: end.load_work,
-            friction_dissipation: end.friction_dissipation,
-            bond_dissipation: end.bond_dissipation,
-            damping_dissipation: end.damping_dissipation,
-            impact_loss: end.impact_loss,
-            integration_error: end.integration_error,
+            end: end.stored(),
+            terms: *end,
         }
     }
 
@@ -119,9 +97,9 @@ impl EnergySummary {
         let scale = largest
             .max(self.initial.abs())
             .max(self.end.abs())
-            .max(self.load_work.abs());
+            .max(self.terms.load_work.abs());
         if scale > 0.0 {
-            self.integration_error.abs() / scale
+            self.terms.integration_error.abs() / scale
         } else {
             0.0
         }
@@ -130,12 +108,7 @@ impl EnergySummary {
     /// What the listed terms leave unexplained \[J\]: end - initial - work + dissipations + integration error. Each
     /// term has its own formula, so zero proves something.
     pub fn unexplained(&self) -> f64 {
-        let lost = self.friction_dissipation
-            + self.bond_dissipation
-            + self.damping_dissipation
-            + self.impact_loss
-            + self.integration_error;
-        self.end - self.initial - self.load_work + lost
+        self.end - self.initial - self.terms.load_work + self.terms.lost()
     }
 }
 

@@ -8,7 +8,7 @@ mod run;
 use indexmap::IndexMap;
 
 use super::locate::join;
-use super::overrides::near_names;
+use super::near::near_names;
 use super::{Inertia, Load, Motion, Scene, Table};
 
 /// A value that is not allowed.

@@ -1,65 +1,10 @@
 //! Errors of the input, with the place in the file.
 
-use std::fmt;
-use std::ops::Range;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::{Source, overrides::Override};
-
-/// One thing wrong in a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// File, or name of a built-in scene.
-    pub file: String,
-    /// Line, from 1.
-    pub line: usize,
-    /// Column in characters, from 1.
-    pub column: usize,
-    /// Bytes of the offending value.
-    pub span: Range<usize>,
-    /// Dotted path of the field; may be empty when the text cannot be read at all.
-    pub path: String,
-    /// The value as it stands there, shortened; empty when the value is absent or not the point.
-    pub value: String,
-    /// What is wrong and what is allowed.
-    pub message: String,
-    /// The `--set` that put the value there.
-    pub set_by: Option<Override>,
-}
-
-impl Fault {
-    /// Path, value and what is allowed, without the place.
-    pub fn what(&self) -> String {
-        let mut what = self.path.clone();
-        if !self.value.is_empty() && !what.is_empty() {
-            what += " = ";
-        }
-        what += &self.value;
-        if !what.is_empty() {
-            what += ": ";
-        }
-        what += &self.message;
-        if let Some(set) = &self.set_by {
-            what += &format!(" (from --set {}={})", set.path, set.value);
-        }
-        what
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}:{}:{}: {}",
-            self.file,
-            self.line,
-            self.column,
-            self.what()
-        )
-    }
-}
+use super::source::{Fault, Source};
 
 /// Why a scene cannot be used.
 #[derive(Debug, Error)]
@@ -132,24 +77,5 @@ impl miette::Diagnostic for SceneError {
             miette::LabeledSpan::new(Some(label.into()), fault.span.start, fault.span.len())
         });
         Some(Box::new(labels))
-    }
-}
-
-impl miette::SourceCode for Source {
-    fn read_span<'a>(
-        &'a self,
-        span: &miette::SourceSpan,
-        before: usize,
-        after: usize,
-    ) -> Result<Box<dyn miette::SpanContents<'a> + 'a>, miette::MietteError> {
-        let found = self.text.read_span(span, before, after)?;
-        Ok(Box::new(miette::MietteSpanContents::new_named(
-            self.name.clone(),
-            found.data(),
-            *found.span(),
-            found.line(),
-            found.column(),
-            found.line_count(),
-        )))
     }
 }

@@ -2,9 +2,8 @@
 
 use std::str::FromStr;
 
-use super::load::deserialize;
-use super::locate::NodeKind;
-use super::{Scene, SceneError, Source, SpanTree, field_paths};
+use super::locate::{NodeKind, SpanTree};
+use super::near::distance;
 
 /// A changed value.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,53 +30,8 @@ impl FromStr for Override {
     }
 }
 
-/// Applies one override to a text that is a scene already; the scene it gives.
-pub(super) fn apply(
-    source: &Source,
-    scene: &Scene,
-    set: &Override,
-) -> Result<(Source, Scene), SceneError> {
-    let refuse = |reason: String| SceneError::Set {
-        path: set.path.clone(),
-        value: set.value.clone(),
-        reason,
-    };
-    let path = resolve(&field_paths(scene), &set.path).map_err(&refuse)?;
-    let mut failure = None;
-    for value in spellings(&set.value) {
-        let mut changed = source.clone();
-        changed.text = replace(&source.text, &path, &value).map_err(&refuse)?;
-        changed.sets.push(Override {
-            path: path.clone(),
-            value: set.value.clone(),
-        });
-        match deserialize(&changed) {
-            Ok(scene) => return Ok((changed, scene)),
-            Err(error) => failure = failure.or(Some(error)),
-        }
-    }
-    let why = match &failure {
-        Some(error) => error
-            .faults()
-            .first()
-            .map(|f| f.message.clone())
-            .unwrap_or_default(),
-        None => String::new(),
-    };
-    let place = source.fault(&path, String::new());
-    let now = if place.value.is_empty() {
-        "it has its default".into()
-    } else {
-        format!("it is {}", place.value)
-    };
-    Err(refuse(format!(
-        "the value does not fit {path}: {why} ({now} in {}:{}:{})",
-        place.file, place.line, place.column
-    )))
-}
-
 /// The full path that an abbreviation means.
-fn resolve(paths: &[String], asked: &str) -> Result<String, String> {
+pub(super) fn resolve(paths: &[String], asked: &str) -> Result<String, String> {
     if paths.iter().any(|path| path == asked) {
         return Ok(asked.to_owned());
     }
@@ -126,36 +80,8 @@ fn near_paths(paths: &[String], asked: &str) -> Vec<String> {
         .collect()
 }
 
-/// Names that look like `asked`, the nearest first; names further than about a third of the letters are left out.
-pub fn near_names<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
-    let limit = 1 + asked.chars().count() / 3;
-    let mut near: Vec<(usize, &str)> = names
-        .into_iter()
-        .map(|name| (distance(name, asked), name))
-        .filter(|(d, _)| *d <= limit)
-        .collect();
-    near.sort_by_key(|(d, _)| *d);
-    near.into_iter().map(|(_, name)| name).collect()
-}
-
-/// Edit distance in characters, upper and lower case the same.
-fn distance(a: &str, b: &str) -> usize {
-    let [a, b] = [a, b].map(|s| s.to_lowercase().chars().collect::<Vec<_>>());
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(ca != cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}
-
 /// Texts to try for a value: as given when it is one RON value, then as a string.
-fn spellings(value: &str) -> Vec<String> {
+pub(super) fn spellings(value: &str) -> Vec<String> {
     let quoted = format!("\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\""));
     // Anything around the value, as a comment, could swallow what follows in the file.
     let alone = SpanTree::scan(value).is_ok_and(|tree| tree.root().span == (0..value.len()));
@@ -167,7 +93,7 @@ fn spellings(value: &str) -> Vec<String> {
 }
 
 /// The text with the value at `path` replaced, or inserted where the text leaves it to its default.
-fn replace(text: &str, path: &str, value: &str) -> Result<String, String> {
+pub(super) fn replace(text: &str, path: &str, value: &str) -> Result<String, String> {
     let tree = SpanTree::scan(text).map_err(|e| e.to_string())?;
     let (node, missing) = tree.deepest(path);
     let [first, inner @ ..] = &missing[..] else {

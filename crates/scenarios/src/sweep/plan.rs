@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use thiserror::Error;
 
+use super::{Planned, Sweep};
 use crate::catalog;
 use crate::spec::{LoadedScene, Override, SceneError};
 
@@ -87,28 +88,6 @@ pub enum SweepError {
 const MAX_RUNS: usize = 10_000;
 /// Letters of a folder's name at most; file systems take 255 bytes.
 const LONGEST_NAME: usize = 120;
-
-/// All runs of a study, checked.
-#[derive(Clone, Debug)]
-pub struct Sweep {
-    /// The varied fields as they were asked for.
-    pub names: Vec<String>,
-    /// Their full paths.
-    pub paths: Vec<String>,
-    /// All combinations; the last field varies fastest.
-    pub runs: Vec<Planned>,
-}
-
-/// One run of a sweep.
-#[derive(Clone, Debug)]
-pub struct Planned {
-    /// Name of its folder, `<number>_<field>=<value>..`.
-    pub folder: String,
-    /// Value of each varied field.
-    pub values: Vec<String>,
-    /// Its scene.
-    pub scene: LoadedScene,
-}
 
 impl Sweep {
     /// Reads and checks the scenes of all combinations.

@@ -1,7 +1,8 @@
 //! The table of a sweep: a row a run.
 
 use super::{Outcome, Sweep};
-use crate::output::{ENERGY_COLUMNS, Energies, History, OutputError, Summary};
+use crate::energies::ENERGY_TERMS;
+use crate::output::{History, OutputError, Summary};
 use crate::report;
 
 /// Columns of `sweep.csv` after the varied fields that come from the summary; the energies follow.
@@ -128,8 +129,8 @@ fn measures(outcome: &Outcome) -> Vec<(String, f64)> {
         ("energy.initial".to_owned(), energy.initial),
         ("energy.final".to_owned(), energy.end),
     ];
-    let energies = Energies::from(energy).values();
-    measures.extend(ENERGY_COLUMNS.map(str::to_owned).into_iter().zip(energies));
+    let terms = ENERGY_TERMS.iter();
+    measures.extend(terms.map(|term| (term.column.to_owned(), (term.value)(&energy.terms))));
     for (name, peak, time) in peaks(&outcome.history) {
         measures.push((format!("peak.force.{name}"), peak));
         measures.push((format!("peak.force.{name}.t"), time));

@@ -258,8 +258,8 @@ fn bonds_are_written_to_history_fields_and_pictures() {
     assert_eq!(column("bond.ground.bonded")[last], 9.0);
     assert_eq!(column("probe.top.beta")[last], 0.0);
     assert!(column("probe.top.gap")[last].is_nan());
-    assert!(summary.energy.unexplained().abs() < 1e-9 * summary.energy.load_work.abs());
-    assert!(summary.energy.adhesive < 0.0 && summary.energy.bond_dissipation > 0.0);
+    assert!(summary.energy.unexplained().abs() < 1e-9 * summary.energy.terms.load_work.abs());
+    assert!(summary.energy.terms.adhesive < 0.0 && summary.energy.terms.bond_dissipation > 0.0);
 
     let vtu = Vtu::read(&std::fs::read(folder.join("fields/step_000020.vtu")).unwrap());
     assert_eq!(vtu.floats("beta")[0].to_bits(), beta[last].to_bits());

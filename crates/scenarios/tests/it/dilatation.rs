@@ -79,7 +79,7 @@ fn a_pressed_block_of_rubber_runs_and_its_audit_closes() {
         assert_eq!(summary.status, Status::Completed);
         let energy = &summary.energy;
         assert!(
-            energy.unexplained().abs() < 1e-9 * energy.load_work,
+            energy.unexplained().abs() < 1e-9 * energy.terms.load_work,
             "{energy:?}"
         );
         assert_eq!(

@@ -1,8 +1,7 @@
 //! Time, solver and output of a scene.
 
 use super::{Checker, MAX_STEPS, unknown};
-use crate::output::Layout;
-use crate::spec::{ContactLevel, FieldsEvery, Inertia, Plot};
+use crate::spec::{ContactLevel, FieldsEvery, Inertia, Layout, Plot, Probe};
 
 impl Checker<'_> {
     pub(super) fn time(&mut self) {
@@ -79,60 +78,52 @@ impl Checker<'_> {
             FieldsEvery::Never => {}
         }
         for (i, plot) in output.plots.iter().enumerate() {
-            let path = format!("output.plots.{i}");
-            match plot {
-                Plot::Energy | Plot::Deformed => {}
-                // A time beyond the end gives the picture of the end.
-                Plot::DeformedAt(t) => {
-                    self.require(*t >= 0.0 && t.is_finite(), &path, "must be 0 s or more")
-                }
-                Plot::Force(name) | Plot::Moment(name) => {
-                    let names = self
-                        .scene
-                        .interfaces
-                        .keys()
-                        .chain(self.scene.motions.keys());
-                    let found = names.clone().any(|n| n == name);
-                    self.require(
-                        found,
-                        &path,
-                        unknown("interface or motion", name, names.map(String::as_str)),
-                    );
-                }
-                Plot::Probe(name) => self.known(&output.probes, name, "probe", &path),
-                Plot::History(columns) => {
-                    self.require(!columns.is_empty(), &path, "must name at least one column");
-                    let header = Layout::of(self.scene).header();
-                    for (k, column) in columns.iter().enumerate() {
-                        self.require(
-                            header.contains(column),
-                            &format!("{path}.{k}"),
-                            unknown("column", column, header.iter().map(String::as_str)),
-                        );
-                    }
+            self.plot(plot, &format!("output.plots.{i}"));
+        }
+        for (name, probe) in &output.probes {
+            self.probe(probe, &format!("output.probes.{name}"));
+        }
+    }
+
+    fn plot(&mut self, plot: &Plot, path: &str) {
+        let scene = self.scene;
+        match plot {
+            Plot::Energy | Plot::Deformed => {}
+            // A time beyond the end gives the picture of the end.
+            Plot::DeformedAt(t) => {
+                self.require(*t >= 0.0 && t.is_finite(), path, "must be 0 s or more");
+            }
+            Plot::Force(name) | Plot::Moment(name) => {
+                let names = scene.interfaces.keys().chain(scene.motions.keys());
+                let found = names.clone().any(|n| n == name);
+                let names = names.map(String::as_str);
+                self.require(found, path, unknown("interface or motion", name, names));
+            }
+            Plot::Probe(name) => self.known(&scene.output.probes, name, "probe", path),
+            Plot::History(columns) => {
+                self.require(!columns.is_empty(), path, "must name at least one column");
+                let header = Layout::of(scene).header();
+                for (k, column) in columns.iter().enumerate() {
+                    let names = header.iter().map(String::as_str);
+                    let known = header.contains(column);
+                    let path = format!("{path}.{k}");
+                    self.require(known, &path, unknown("column", column, names));
                 }
             }
         }
-        for (name, probe) in &output.probes {
-            let path = format!("output.probes.{name}");
-            self.known(
-                &self.scene.bodies,
-                &probe.body,
-                "body",
-                &format!("{path}.body"),
-            );
-            self.finite(&probe.node, &format!("{path}.node"));
-            let asked = &probe.quantities;
-            let once = asked
-                .iter()
-                .enumerate()
-                .all(|(i, q)| !asked[..i].contains(q));
-            let path = format!("{path}.quantities");
-            self.require(
-                once && !asked.is_empty(),
-                &path,
-                "must name at least one quantity, each once",
-            );
-        }
+    }
+
+    fn probe(&mut self, probe: &Probe, path: &str) {
+        let bodies = &self.scene.bodies;
+        self.known(bodies, &probe.body, "body", &format!("{path}.body"));
+        self.finite(&probe.node, &format!("{path}.node"));
+        let asked = &probe.quantities;
+        let mut pairs = asked.iter().enumerate();
+        let once = pairs.all(|(i, q)| !asked[..i].contains(q));
+        self.require(
+            once && !asked.is_empty(),
+            &format!("{path}.quantities"),
+            "must name at least one quantity, each once",
+        );
     }
 }
