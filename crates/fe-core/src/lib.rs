@@ -39,6 +39,8 @@ pub use mesh::generate::{
     AnnulusMesh, BoxMesh, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh, HalfDiscMesh,
     Pole, QuarterDiscMesh, RectangleMesh,
 };
+#[cfg(feature = "serde")]
+pub use mesh::text;
 pub use mesh::{CellBlock, CellKind, Facet, FacetKind, Mesh, Symmetry};
 pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};

@@ -5,6 +5,8 @@ pub mod generate;
 mod facet;
 mod kind;
 mod quadratic;
+#[cfg(feature = "serde")]
+pub mod text;
 
 use std::collections::BTreeMap;
 

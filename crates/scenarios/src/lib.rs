@@ -17,3 +17,8 @@ pub mod row;
 pub mod run;
 pub mod spec;
 pub mod sweep;
+
+/// The example of the README compiles and runs.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -15,6 +15,7 @@ mod layout;
 mod load;
 mod locate;
 mod material;
+mod mesh;
 mod motion;
 mod near;
 mod overrides;
@@ -23,13 +24,14 @@ mod request;
 mod source;
 mod time;
 
-pub use body::{Body, Element, Mesh, MeshSize, PlaneElement, Symmetry};
+pub use body::{Body, Symmetry};
 pub use error::SceneError;
 pub use interface::{Adhesion, Interface, Master, Stiffness};
 pub use layout::{Layout, ProbeColumns};
 pub use load::{LoadedScene, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};
 pub use material::{BuiltLaw, Law, LawError, Material};
+pub use mesh::{Mesh, MeshSize, PlaneGrid, SolidGrid};
 pub use motion::{Load, Motion, Prescribed, Rotation, Table};
 pub use near::near_names;
 pub use overrides::Override;
@@ -40,7 +42,10 @@ pub use time::{MassKind, Solver, Time};
 
 // Choices and shapes that the libraries name; their feature `serde` reads them.
 pub use contact_bipotential::rcc::{Healing, Reference, Update};
-pub use fe_core::{Dilatation, GridAxis, GridPiece, Interpolation, Pole};
+pub use fe_core::{
+    AnnulusMesh, BoxMesh, Dilatation, DiscMesh, GridAxis, GridPiece, HalfBallMesh, HalfDiscMesh,
+    Interpolation, Pole, QuarterDiscMesh, RectangleMesh,
+};
 pub use nscd::{ContactLevel, Inertia, Rayleigh};
 
 use indexmap::IndexMap;
@@ -102,6 +107,27 @@ fn one() -> usize {
 const NOTABLE_POISSON_RATIO: f64 = 0.45;
 
 impl Scene {
+    /// A scene without bodies, all else left to its default, as in a file.
+    pub fn new(title: impl Into<String>, time: Time) -> Scene {
+        Scene {
+            title: title.into(),
+            description: String::new(),
+            source: String::new(),
+            refine: one(),
+            symmetry: None,
+            materials: IndexMap::new(),
+            bodies: IndexMap::new(),
+            motions: IndexMap::new(),
+            loads: IndexMap::new(),
+            interfaces: IndexMap::new(),
+            damping: Rayleigh::default(),
+            time,
+            solver: Solver::default(),
+            mass: MassKind::default(),
+            output: Output::default(),
+        }
+    }
+
     /// True when the first body is plane; then all are.
     pub fn is_plane(&self) -> bool {
         let first = self.bodies.first();

@@ -28,6 +28,32 @@ pub enum CellKind {
 }
 
 impl CellKind {
+    /// All kinds.
+    pub const ALL: [CellKind; 8] = [
+        CellKind::Hex8,
+        CellKind::Tet4,
+        CellKind::Quad4,
+        CellKind::Tri3,
+        CellKind::Hex27,
+        CellKind::Tet10,
+        CellKind::Quad9,
+        CellKind::Tri6,
+    ];
+
+    /// Name, as in `Hex8`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            CellKind::Hex8 => "Hex8",
+            CellKind::Tet4 => "Tet4",
+            CellKind::Quad4 => "Quad4",
+            CellKind::Tri3 => "Tri3",
+            CellKind::Hex27 => "Hex27",
+            CellKind::Tet10 => "Tet10",
+            CellKind::Quad9 => "Quad9",
+            CellKind::Tri6 => "Tri6",
+        }
+    }
+
     /// Nodes of a cell.
     pub fn node_count(self) -> usize {
         match self {

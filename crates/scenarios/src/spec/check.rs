@@ -138,7 +138,7 @@ impl Checker<'_> {
         let sets = if kind == "node" {
             found.mesh.node_sets()
         } else {
-            found.mesh.facet_sets()
+            found.mesh.facet_sets().to_vec()
         };
         let what = format!("{kind} set of body `{body}`");
         self.require(

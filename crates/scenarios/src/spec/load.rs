@@ -7,7 +7,7 @@ use super::check::check;
 use super::error::SceneError;
 use super::overrides::{Override, replace, resolve, spellings};
 use super::paths::field_paths;
-use super::source::Source;
+use super::source::{Fault, Source};
 
 /// A scene with the text it came from, so that whatever is built from it can still point into the file.
 #[derive(Clone, Debug)]
@@ -19,6 +19,19 @@ pub struct LoadedScene {
 }
 
 impl LoadedScene {
+    /// Checks a scene that code has built; `name` appears in errors, which have paths but no lines.
+    ///
+    /// # Errors
+    /// [`SceneError::Faults`] with every value that is not allowed.
+    pub fn new(name: &str, scene: Scene) -> Result<LoadedScene, SceneError> {
+        let source = Source {
+            name: name.to_owned(),
+            text: String::new(),
+            sets: Vec::new(),
+        };
+        checked(scene, source, Vec::new())
+    }
+
     /// An error at the value of a dotted path, for what only the built model can tell.
     pub fn refuse(&self, path: &str, message: impl Into<String>) -> SceneError {
         SceneError::Faults {
@@ -43,12 +56,18 @@ pub fn parse(name: &str, text: &str, sets: &[Override]) -> Result<LoadedScene, S
     for set in sets {
         (source, scene) = apply(&source, &scene, set)?;
     }
-    let mut faults = source.duplicates();
-    faults.extend(
-        check(&scene)
-            .into_iter()
-            .map(|issue| source.fault(&issue.path, issue.message)),
-    );
+    let faults = source.duplicates();
+    checked(scene, source, faults)
+}
+
+/// The scene if none of its values and nothing before is at fault.
+fn checked(
+    scene: Scene,
+    source: Source,
+    mut faults: Vec<Fault>,
+) -> Result<LoadedScene, SceneError> {
+    let issues = check(&scene).into_iter();
+    faults.extend(issues.map(|issue| source.fault(&issue.path, issue.message)));
     if faults.is_empty() {
         return Ok(LoadedScene { scene, source });
     }

@@ -28,6 +28,21 @@ pub struct Time {
     pub min_dt: Option<f64>,
 }
 
+impl Time {
+    /// Steps `dt` \[s\] until `end` \[s\] with the trapezoidal scheme, all else left to its default.
+    pub fn new(end: f64, dt: f64) -> Time {
+        Time {
+            end,
+            dt,
+            theta: half(),
+            xi: half(),
+            contact: ContactLevel::default(),
+            inertia: Inertia::default(),
+            min_dt: None,
+        }
+    }
+}
+
 fn half() -> f64 {
     0.5
 }

@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::{Planned, Sweep};
 use crate::catalog;
-use crate::spec::{LoadedScene, Override, SceneError};
+use crate::spec::{Override, SceneError};
 
 /// Values that a field takes one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -175,10 +175,11 @@ fn history_has_the_promised_columns_and_keeps_bits() {
 #[test]
 fn a_row_with_missing_numbers_keeps_its_columns() {
     let (results, _) = results("short-row", &[]);
-    let short = results.layout().numbers(&Row {
+    let short = Row {
         time: 1.0,
         ..Row::default()
-    });
+    };
+    let short = short.numbers(results.layout());
     assert_eq!(short.len(), results.layout().header().len());
     assert!(short.last().unwrap().is_nan());
 }

@@ -117,7 +117,7 @@ fn counts_and_sets(loaded: &LoadedScene, shown: &str) {
     };
     let built = solid.mesh();
     assert_eq!(
-        names(mesh.node_sets()),
+        names(&mesh.node_sets()),
         built.node_sets.keys().cloned().collect::<Vec<_>>()
     );
     assert_eq!(

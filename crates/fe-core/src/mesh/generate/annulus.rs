@@ -8,6 +8,8 @@ use super::{
     require_positive, single_block,
 };
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, even, plane, quadrilaterals};
 use crate::mesh::{CellKind, Mesh, Symmetry};
 
 /// A plane ring of quadrilaterals, or each cut into two triangles.
@@ -15,6 +17,11 @@ use crate::mesh::{CellKind, Mesh, Symmetry};
 /// Nodes are numbered counter-clockwise from the x axis, from the inner rim outwards. Sides are `inner` and `outer`, their
 /// nodes equally spaced. Nodes that quadratic cells add between two of a radius have that radius too.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct AnnulusMesh {
     /// Centre \[m\].
     pub center: [f64; 2],
@@ -25,12 +32,26 @@ pub struct AnnulusMesh {
     /// Cells around the whole ring (at least 3), and through its thickness.
     pub cells: [usize; 2],
     /// Thickness of the outermost cell over that of the innermost \[-\]; 1 is uniform.
+    #[cfg_attr(feature = "serde", serde(default = "even"))]
     pub grading: f64,
     /// A kind of plane cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "quadrilaterals", with = "plane")
+    )]
     pub kind: CellKind,
 }
 
 impl AnnulusMesh {
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> AnnulusMesh {
+        AnnulusMesh {
+            cells: self.cells.map(|n| n * factor),
+            ..self
+        }
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors

@@ -2,6 +2,8 @@
 
 use super::{require, require_cells, require_indices, require_positive};
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, even};
 
 /// Grid lines along one axis: pieces one after the other, away from `from`, all in the same direction.
 ///
@@ -23,7 +25,7 @@ use crate::error::MeshError;
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
+    derive(Serialize, Deserialize),
     serde(deny_unknown_fields)
 )]
 pub struct GridAxis {
@@ -37,7 +39,7 @@ pub struct GridAxis {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
+    derive(Serialize, Deserialize),
     serde(deny_unknown_fields)
 )]
 pub enum GridPiece {
@@ -48,7 +50,7 @@ pub enum GridPiece {
         /// Number of cells, at least 1.
         cells: usize,
         /// Size of the last cell over that of the first \[-\]; 1 is uniform.
-        #[cfg_attr(feature = "serde", serde(default = "uniform"))]
+        #[cfg_attr(feature = "serde", serde(default = "even"))]
         grading: f64,
     },
     /// Cells that continue those of the piece before: each is larger than its neighbour by the same ratio, which is the
@@ -59,12 +61,6 @@ pub enum GridPiece {
         /// Bound on the size of a cell over that of the one before \[-\], at least 1.
         growth: f64,
     },
-}
-
-/// The grading of a piece that names none \[-\].
-#[cfg(feature = "serde")]
-fn uniform() -> f64 {
-    1.0
 }
 
 impl GridPiece {

@@ -6,6 +6,8 @@ use super::axis::GridAxis;
 use super::grid::GridMesh;
 use super::{check_grid, check_kind};
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, hexahedra, point, solid, uniform};
 use crate::mesh::{CellKind, Mesh};
 
 /// A box of `cells[0] x cells[1] x cells[2]` bricks, each one hexahedron or six tetrahedra.
@@ -13,16 +15,28 @@ use crate::mesh::{CellKind, Mesh};
 /// Nodes are numbered with x fastest, those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
 /// `y_max`, `z_min`, `z_max` and the node set `all`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct BoxMesh {
     /// Lowest corner \[m\].
+    #[cfg_attr(feature = "serde", serde(with = "point"))]
     pub min: Vector3<f64>,
     /// Highest corner \[m\].
+    #[cfg_attr(feature = "serde", serde(with = "point"))]
     pub max: Vector3<f64>,
     /// Bricks per axis.
     pub cells: [usize; 3],
     /// Size of the last brick over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
+    #[cfg_attr(feature = "serde", serde(default = "uniform"))]
     pub grading: [f64; 3],
     /// A kind of solid cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "hexahedra", with = "solid")
+    )]
     pub kind: CellKind,
 }
 
@@ -45,6 +59,15 @@ impl BoxMesh {
     /// The same box with another kind of cells.
     pub fn with_kind(self, kind: CellKind) -> BoxMesh {
         BoxMesh { kind, ..self }
+    }
+
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> BoxMesh {
+        BoxMesh {
+            cells: self.cells.map(|n| n * factor),
+            ..self
+        }
     }
 
     /// Builds the mesh; its only block gets the name `block`.

@@ -5,12 +5,19 @@ use nalgebra::Vector3;
 use super::o_grid::OGrid;
 use super::{Pole, RectangleMesh, check_kind, name_side, require_cells, require_indices};
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals};
 use crate::mesh::{CellKind, Mesh};
 
 /// A disc of quadrilaterals around a square core, or each cut into two triangles.
 ///
 /// The side is `rim`, its nodes equally spaced and on the circle, also those of quadratic cells; the node set `center` is the node nearest to the centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct DiscMesh {
     /// Centre \[m\].
     pub center: [f64; 2],
@@ -19,6 +26,10 @@ pub struct DiscMesh {
     /// Cells per quarter of the rim. Even numbers give a node at the centre and at the four poles.
     pub cells: usize,
     /// A kind of plane cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "quadrilaterals", with = "plane")
+    )]
     pub kind: CellKind,
 }
 
@@ -26,6 +37,11 @@ pub struct DiscMesh {
 ///
 /// Sides are `dome`, its nodes equally spaced, one of them at the pole, and `base`, the diameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HalfDiscMesh {
     /// Centre \[m\], on the base.
     pub center: [f64; 2],
@@ -36,6 +52,10 @@ pub struct HalfDiscMesh {
     /// Where the dome points: +y or -y.
     pub pole: Pole,
     /// A kind of plane cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "quadrilaterals", with = "plane")
+    )]
     pub kind: CellKind,
 }
 
@@ -44,6 +64,11 @@ pub struct HalfDiscMesh {
 ///
 /// Sides are `dome`, its nodes equally spaced, `base`, the radius along x, and `axis`, the radius along y.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct QuarterDiscMesh {
     /// Centre \[m\], where base and axis meet.
     pub center: [f64; 2],
@@ -54,10 +79,23 @@ pub struct QuarterDiscMesh {
     /// Where the dome points: +y or -y.
     pub pole: Pole,
     /// A kind of plane cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "quadrilaterals", with = "plane")
+    )]
     pub kind: CellKind,
 }
 
 impl DiscMesh {
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> DiscMesh {
+        DiscMesh {
+            cells: self.cells * factor,
+            ..self
+        }
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors
@@ -85,6 +123,15 @@ impl DiscMesh {
 }
 
 impl HalfDiscMesh {
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> HalfDiscMesh {
+        HalfDiscMesh {
+            cells: self.cells * factor,
+            ..self
+        }
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors
@@ -112,6 +159,15 @@ impl HalfDiscMesh {
 }
 
 impl QuarterDiscMesh {
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> QuarterDiscMesh {
+        QuarterDiscMesh {
+            cells: self.cells * factor,
+            ..self
+        }
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors

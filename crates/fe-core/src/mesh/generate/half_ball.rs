@@ -6,14 +6,22 @@ use super::disc::name_plane;
 use super::o_grid::OGrid;
 use super::{BoxMesh, Pole, check_shape_kind, require_cells, require_indices};
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, hexahedra, point, solid};
 use crate::mesh::{CellKind, Mesh};
 
 /// The upper or lower half of a ball, of hexahedra around half a cube.
 ///
 /// Sides are `dome`, with a node at the pole, and `base`, the disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct HalfBallMesh {
     /// Centre \[m\], on the base.
+    #[cfg_attr(feature = "serde", serde(with = "point"))]
     pub center: Vector3<f64>,
     /// Radius \[m\].
     pub radius: f64,
@@ -22,10 +30,23 @@ pub struct HalfBallMesh {
     /// Where the dome points: +z or -z.
     pub pole: Pole,
     /// [`CellKind::Hex8`] or [`CellKind::Hex27`].
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "hexahedra", with = "solid")
+    )]
     pub kind: CellKind,
 }
 
 impl HalfBallMesh {
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> HalfBallMesh {
+        HalfBallMesh {
+            cells: self.cells * factor,
+            ..self
+        }
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors

@@ -4,12 +4,19 @@ use super::axis::GridAxis;
 use super::grid::GridMesh;
 use super::{check_grid, check_kind};
 use crate::error::MeshError;
+#[cfg(feature = "serde")]
+use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals, uniform};
 use crate::mesh::{CellKind, Mesh};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///
 /// Nodes are numbered with x fastest, those that quadratic cells add come after them. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(Serialize, Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct RectangleMesh {
     /// Lowest corner \[m\].
     pub min: [f64; 2],
@@ -18,8 +25,13 @@ pub struct RectangleMesh {
     /// Cells per axis.
     pub cells: [usize; 2],
     /// Size of the last cell over that of the first, per axis \[-\]; sizes grow geometrically, 1 is uniform.
+    #[cfg_attr(feature = "serde", serde(default = "uniform"))]
     pub grading: [f64; 2],
     /// A kind of plane cells.
+    #[cfg_attr(
+        feature = "serde",
+        serde(rename = "element", default = "quadrilaterals", with = "plane")
+    )]
     pub kind: CellKind,
 }
 
@@ -38,6 +50,15 @@ impl RectangleMesh {
     /// The same rectangle with another kind of cells.
     pub fn with_kind(self, kind: CellKind) -> RectangleMesh {
         RectangleMesh { kind, ..self }
+    }
+
+    /// The same shape with each number of cells multiplied by `factor`.
+    #[must_use]
+    pub fn refined(self, factor: usize) -> RectangleMesh {
+        RectangleMesh {
+            cells: self.cells.map(|n| n * factor),
+            ..self
+        }
     }
 
     /// Builds the mesh; its only block gets the name `block`.

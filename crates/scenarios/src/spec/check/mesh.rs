@@ -1,84 +1,33 @@
 //! Meshes of bodies.
 
+use fe_core::{AnnulusMesh, CellKind};
+
 use super::{Checker, MAX_GRADING, MAX_NODES};
-use crate::spec::{Element, GridAxis, GridPiece, Mesh};
+use crate::spec::{GridAxis, GridPiece, Mesh};
 
 impl Checker<'_> {
     pub(super) fn mesh(&mut self, mesh: &Mesh, path: &str) {
         match mesh {
-            Mesh::Box {
-                min,
-                max,
-                cells,
-                grading,
-                ..
-            } => self.lattice(min, max, cells, grading, path),
-            Mesh::Rectangle {
-                min,
-                max,
-                cells,
-                grading,
-                ..
-            } => self.lattice(min, max, cells, grading, path),
-            Mesh::Grid { x, y, crown, .. } => {
-                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
-                self.axis(x, &format!("{path}.x"));
-                self.axis(y, &format!("{path}.y"));
+            Mesh::Box(m) => {
+                let (min, max) = (m.min.as_slice(), m.max.as_slice());
+                self.lattice(min, max, &m.cells, &m.grading, path);
             }
-            Mesh::SolidGrid { x, y, z, crown, .. } => {
-                self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
-                self.axis(x, &format!("{path}.x"));
-                self.axis(y, &format!("{path}.y"));
-                self.axis(z, &format!("{path}.z"));
+            Mesh::Rectangle(m) => self.lattice(&m.min, &m.max, &m.cells, &m.grading, path),
+            Mesh::Grid(m) => self.axes(&[("x", &m.x), ("y", &m.y)], m.crown, path),
+            Mesh::SolidGrid(m) => {
+                let axes = [("x", &m.x), ("y", &m.y), ("z", &m.z)];
+                self.axes(&axes, m.crown, path);
             }
-            Mesh::HalfBall {
-                center,
-                radius,
-                cells,
-                element,
-                ..
-            } => {
-                self.round(center, *radius, *cells, path);
-                let hexahedra = matches!(element, Element::Hex8 | Element::Hex27);
+            Mesh::HalfBall(m) => {
+                self.round(m.center.as_slice(), m.radius, m.cells, path);
+                let hexahedra = m.kind.linear() == CellKind::Hex8;
                 let message = "must be Hex8 or Hex27: a half ball is not cut into tetrahedra";
-                self.require(hexahedra, &format!("{path}.element"), message.to_owned());
+                self.require(hexahedra, &format!("{path}.element"), message);
             }
-            Mesh::Disc {
-                center,
-                radius,
-                cells,
-                ..
-            }
-            | Mesh::HalfDisc {
-                center,
-                radius,
-                cells,
-                ..
-            }
-            | Mesh::QuarterDisc {
-                center,
-                radius,
-                cells,
-                ..
-            } => self.round(center, *radius, *cells, path),
-            Mesh::Annulus {
-                center,
-                inner,
-                outer,
-                cells,
-                grading,
-                ..
-            } => {
-                self.finite(center, &format!("{path}.center"));
-                self.positive(*inner, &format!("{path}.inner"), "m");
-                let message = format!("must be greater than inner = {inner} [m]");
-                let larger = outer.is_finite() && outer > inner;
-                self.require(larger, &format!("{path}.outer"), message);
-                for (i, least) in [3, 1].into_iter().enumerate() {
-                    self.cells(cells[i], least, &format!("{path}.cells.{i}"));
-                }
-                self.grading(*grading, &format!("{path}.grading"));
-            }
+            Mesh::Disc(m) => self.round(&m.center, m.radius, m.cells, path),
+            Mesh::HalfDisc(m) => self.round(&m.center, m.radius, m.cells, path),
+            Mesh::QuarterDisc(m) => self.round(&m.center, m.radius, m.cells, path),
+            Mesh::Annulus(m) => self.ring(m, path),
         }
         let nodes = mesh.size(self.scene.refine).nodes;
         let message = format!(
@@ -86,6 +35,25 @@ impl Checker<'_> {
             self.scene.refine
         );
         self.require(nodes <= MAX_NODES, &format!("{path}.cells"), message);
+    }
+
+    fn ring(&mut self, ring: &AnnulusMesh, path: &str) {
+        self.finite(&ring.center, &format!("{path}.center"));
+        self.positive(ring.inner, &format!("{path}.inner"), "m");
+        let message = format!("must be greater than inner = {} [m]", ring.inner);
+        let larger = ring.outer.is_finite() && ring.outer > ring.inner;
+        self.require(larger, &format!("{path}.outer"), message);
+        for (i, least) in [3, 1].into_iter().enumerate() {
+            self.cells(ring.cells[i], least, &format!("{path}.cells.{i}"));
+        }
+        self.grading(ring.grading, &format!("{path}.grading"));
+    }
+
+    fn axes(&mut self, axes: &[(&str, &GridAxis)], crown: Option<f64>, path: &str) {
+        self.positive(crown.unwrap_or(1.0), &format!("{path}.crown"), "m");
+        for (name, axis) in axes {
+            self.axis(axis, &format!("{path}.{name}"));
+        }
     }
 
     fn lattice(&mut self, min: &[f64], max: &[f64], cells: &[usize], grading: &[f64], path: &str) {

@@ -180,13 +180,12 @@ fn is_zero(table: &Table) -> bool {
 /// Smallest x of a plane mesh \[m\].
 fn leftmost(mesh: &Mesh) -> f64 {
     match mesh {
-        Mesh::Rectangle { min, .. } => min[0],
-        Mesh::Grid { x, .. } => x.pieces.iter().map(|p| p.to()).fold(x.from, f64::min),
-        Mesh::Disc { center, radius, .. } | Mesh::HalfDisc { center, radius, .. } => {
-            center[0] - radius
-        }
-        Mesh::QuarterDisc { center, .. } => center[0],
-        Mesh::Annulus { center, outer, .. } => center[0] - outer,
-        Mesh::Box { .. } | Mesh::SolidGrid { .. } | Mesh::HalfBall { .. } => 0.0,
+        Mesh::Rectangle(m) => m.min[0],
+        Mesh::Grid(m) => m.x.pieces.iter().map(|p| p.to()).fold(m.x.from, f64::min),
+        Mesh::Disc(m) => m.center[0] - m.radius,
+        Mesh::HalfDisc(m) => m.center[0] - m.radius,
+        Mesh::QuarterDisc(m) => m.center[0],
+        Mesh::Annulus(m) => m.center[0] - m.outer,
+        Mesh::Box(_) | Mesh::SolidGrid(_) | Mesh::HalfBall(_) => 0.0,
     }
 }
