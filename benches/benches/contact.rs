@@ -18,7 +18,7 @@ use criterion::{
 };
 use nscd::{NoClock, Stepper};
 
-/// Compliance of the single contact [-].
+/// Compliance of the single contact \[-\].
 const W: [[f64; 3]; 3] = [[2.0, 0.1, 0.2], [0.1, 1.5, -0.1], [0.2, -0.1, 1.0]];
 const MU: f64 = 0.4;
 /// Sweeps of one measurement of the cost of a sweep: enough to hide what comes before and after.

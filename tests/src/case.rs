@@ -48,7 +48,8 @@ impl Found {
         }
     }
 
-    /// Signed relative error \[-\]; `finest` is the same number of the finest rung. NaN where there is nothing to compare with.
+    /// Signed relative error \[-\]; `finest` is the same number of the finest rung. NaN where there is nothing to
+    /// compare with.
     pub fn error(&self, finest: Option<f64>) -> f64 {
         let Some(exact) = self.exact.or(finest) else {
             return f64::NAN;
@@ -77,7 +78,8 @@ pub struct Ladder {
     pub rungs: Vec<Rung>,
     /// Order of convergence of the first number of the case where theory tells it.
     pub order: Option<f64>,
-    /// Numbers without a closed form are compared with the finest rung of the first ladder of the case, not of this one.
+    /// Numbers without a closed form are compared with the finest rung of the first ladder of the case, not of this
+    /// one.
     pub against_first: bool,
 }
 

@@ -51,15 +51,16 @@ pub fn hertz_cylinder(e_star: f64, r: f64, force: f64) -> Pressed {
     }
 }
 
-/// `int_0^1 w/s ds + int_1^inf (w - 1)/s ds` minus Euler's constant, `w = (cosh 2s - 1)/(sinh 2s + 2s)`: the depth of an elastic
-/// layer on a smooth rigid base under a line load, beyond its logarithm [-].
+/// `int_0^1 w/s ds + int_1^inf (w - 1)/s ds` minus Euler's constant, `w = (cosh 2s - 1)/(sinh 2s + 2s)`: the depth of
+/// an elastic layer on a smooth rigid base under a line load, beyond its logarithm \[-\].
 const LAYER: f64 = -0.351_675_392_623_691;
 
-/// Hertz: a cylinder of radius `r` \[m\] pressed by `depth` \[m\] into a layer of `thickness` \[m\], large against the contact, on a
-/// smooth rigid base: `d = 2 F/(pi E*) (ln(2 H/a) + 1/2 + LAYER)`.
+/// Hertz: a cylinder of radius `r` \[m\] pressed by `depth` \[m\] into a layer of `thickness` \[m\], large against the
+/// contact, on a smooth rigid base: `d = 2 F/(pi E*) (ln(2 H/a) + 1/2 + LAYER)`.
 ///
-/// The surface of the layer under the pressure `cos k x` moves by `2 w(k H)/(E* k) cos k x`. Superposed for a line load this is the
-/// logarithm of the half-plane with a constant, and the mean of the logarithm over the pressure of Hertz is `ln(a/2) - 1/2`.
+/// The surface of the layer under the pressure `cos k x` moves by `2 w(k H)/(E* k) cos k x`. Superposed for a line load
+/// this is the logarithm of the half-plane with a constant, and the mean of the logarithm over the pressure of Hertz is
+/// `ln(a/2) - 1/2`.
 pub fn hertz_cylinder_on_layer(e_star: f64, r: f64, thickness: f64, depth: f64) -> Pressed {
     let force = |a: f64| PI * e_star * a * a / (4.0 * r);
     let depth_of =
@@ -76,7 +77,8 @@ pub fn hertz_cylinder_on_layer(e_star: f64, r: f64, thickness: f64, depth: f64) 
     hertz_cylinder(e_star, r, force(low))
 }
 
-/// Boussinesq and Love: force \[N\] on a cone of semi-apex angle `alpha` \[rad\] at `depth` \[m\] \[Feng2007, eq. 61, corrected\].
+/// Boussinesq and Love: force \[N\] on a cone of semi-apex angle `alpha` \[rad\] at `depth` \[m\] \[Feng2007, eq. 61,
+/// corrected\].
 pub fn cone_force(e_star: f64, alpha: f64, depth: f64) -> f64 {
     2.0 / PI * e_star * alpha.tan() * depth * depth
 }
@@ -86,7 +88,8 @@ pub fn cone_radius(alpha: f64, depth: f64) -> f64 {
     2.0 / PI * depth * alpha.tan()
 }
 
-/// Pressure \[Pa\] under a cone at the distance `s` \[m\] from its axis, inside the radius `a` \[m\] \[Feng2007, eq. 60\].
+/// Pressure \[Pa\] under a cone at the distance `s` \[m\] from its axis, inside the radius `a` \[m\] \[Feng2007, eq.
+/// 60\].
 pub fn cone_pressure(e_star: f64, alpha: f64, a: f64, s: f64) -> f64 {
     0.5 * e_star / alpha.tan() * (a / s).acosh()
 }

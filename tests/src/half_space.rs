@@ -1,8 +1,9 @@
-//! Pull-off of a rigid ball from an elastic half-space with bonds: rings of constant traction, independent of the program.
+//! Pull-off of a rigid ball from an elastic half-space with bonds: rings of constant traction, independent of the
+//! program.
 //!
-//! Radii are in `a0 = (9 pi w R^2 / (2 E*))^(1/3)`, gaps in `a0^2 / R`, tractions in `E* a0 / R`; the work of separation `w`
-//! is `2 / (9 pi)` then. Bonds act across any gap. Equilibria follow one another along the mean opening of the surfaces, which
-//! grows where force and travel turn back.
+//! Radii are in `a0 = (9 pi w R^2 / (2 E*))^(1/3)`, gaps in `a0^2 / R`, tractions in `E* a0 / R`; the work of
+//! separation `w` is `2 / (9 pi)` then. Bonds act across any gap. Equilibria follow one another along the mean opening
+//! of the surfaces, which grows where force and travel turn back.
 
 mod elliptic;
 
@@ -20,7 +21,8 @@ const ENERGY: f64 = 2.0 / (9.0 * PI);
 const EQUAL: f64 = 0.95;
 /// Growth of the rings beyond \[-\].
 const GROWTH: f64 = 1.06;
-/// Gap at the last ring over the one at which bonds start to break \[-\]: beyond, they take a part of `1e-6` of the force.
+/// Gap at the last ring over the one at which bonds start to break \[-\]: beyond, they take a part of `1e-6` of the
+/// force.
 const LARGEST_GAP: f64 = 1000.0;
 /// Mean lift of the half-space at the start, and the steps of the opening \[a0^2 / R\].
 const LIFT: f64 = 0.13;
@@ -33,7 +35,8 @@ const NEWTON_STEPS: usize = 30;
 /// Traction of bonds of strength `s0` at a gap >= 0, and its derivative.
 pub type Bonds = fn(f64, f64) -> (f64, f64);
 
-/// The bonds of the program without viscosity: `beta = min(1, (x0/x)^2)`, a traction that falls with the third power of the gap.
+/// The bonds of the program without viscosity: `beta = min(1, (x0/x)^2)`, a traction that falls with the third power of
+/// the gap.
 pub fn recoverable(strength: f64, gap: f64) -> (f64, f64) {
     let x0 = ENERGY / strength;
     if gap <= x0 {

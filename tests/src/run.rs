@@ -165,8 +165,8 @@ pub fn compute(plan: Plan) -> Result<Ran, String> {
     ran.map_err(|reason| format!("{name}: {reason}"))
 }
 
-/// Makes all runs, as many at a time as there are cores in a small machine; results in the order of the plans. `told` is called
-/// for each that is done.
+/// Makes all runs, as many at a time as there are cores in a small machine; results in the order of the plans. `told`
+/// is called for each that is done.
 pub fn compute_all(
     plans: Vec<Plan>,
     told: &(dyn Fn(&Result<Ran, String>) + Sync),

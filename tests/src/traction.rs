@@ -49,8 +49,8 @@ pub struct Ellipse {
     pub radius: f64,
 }
 
-/// The ellipse through points `(r, p)` with `r <= within`: its square is a line over `r^2`, by least squares. NaN for fewer
-/// than two points.
+/// The ellipse through points `(r, p)` with `r <= within`: its square is a line over `r^2`, by least squares. NaN for
+/// fewer than two points.
 pub fn ellipse(points: impl Iterator<Item = (f64, f64)>, within: f64) -> Ellipse {
     let inside = points.filter(|p| p.0 <= within);
     let squares: Vec<(f64, f64)> = inside.map(|(r, p)| (r * r, p * p)).collect();
@@ -67,7 +67,7 @@ pub fn ellipse(points: impl Iterator<Item = (f64, f64)>, within: f64) -> Ellipse
     }
 }
 
-/// Part of the radius whose nodes are fitted [-]: further out a node's share reaches over the edge.
+/// Part of the radius whose nodes are fitted \[-\]: further out a node's share reaches over the edge.
 pub const INNER: f64 = 0.85;
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use tests::closed_form::{DMT, JKR, maugis_dugdale};
 use tests::curve::peak;
 use tests::{Plan, compute};
 
-/// The pull-off force falls from DMT towards JKR, above Maugis's since the bonds' stress has a tail; at the small end it is
-/// within 1 % of -2 pi w R, and everywhere of an independent computation.
+/// The pull-off force falls from DMT towards JKR, above Maugis's since the bonds' stress has a tail; at the small end
+/// it is within 1 % of -2 pi w R, and everywhere of an independent computation.
 #[test]
 fn the_pull_off_of_a_ball_goes_from_dmt_towards_jkr() {
     let mut last = DMT;
@@ -34,8 +34,8 @@ fn the_pull_off_of_a_ball_goes_from_dmt_towards_jkr() {
     }
 }
 
-/// At large Maugis parameters the ball jumps into contact and out of it. A little viscosity of the bonds makes branches of both, and
-/// hardly any pull.
+/// At large Maugis parameters the ball jumps into contact and out of it. A little viscosity of the bonds makes branches
+/// of both, and hardly any pull.
 #[test]
 fn sticky_balls_jump_into_contact_and_out_of_it() {
     let coarse = [
@@ -110,7 +110,8 @@ fn a_row_of_bonds_follows_the_ramp_of_one() {
     );
 }
 
-/// Without viscosity the largest force is s0 A and the work w A, but for what the bonds still hold at the end: 1/2 (x0/x)^2.
+/// Without viscosity the largest force is s0 A and the work w A, but for what the bonds still hold at the end: 1/2
+/// (x0/x)^2.
 #[test]
 fn without_viscosity_a_plate_takes_strength_and_energy() {
     let measured = adhesion::plate_pull().run(&["b=0.0"]).unwrap();

@@ -210,8 +210,8 @@ fn ran(scene: &str) -> Ran {
     ran.unwrap().completed().unwrap()
 }
 
-/// Pressure of nodes from the middle to the edge, printed for about ten of them; the largest difference to the ellipse of Hertz
-/// inside of 95 % of the radius, over the largest pressure.
+/// Pressure of nodes from the middle to the edge, printed for about ten of them; the largest difference to the ellipse
+/// of Hertz inside of 95 % of the radius, over the largest pressure.
 fn worst_pressure(scene: &str, radius: f64, peak: f64) -> f64 {
     let ran = ran(scene);
     let mut nodes = tractions(&ran, &ran.last);

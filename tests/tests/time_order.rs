@@ -126,8 +126,8 @@ fn a_turning_body_is_of_second_order_and_of_first_with_backward_euler() {
     }
 }
 
-/// Displacements and velocities of both ends over `V`, a time `s` after the impact: the low end stops dead, the high one swings
-/// until it comes back, then the bar flies at half the speed and vibrates.
+/// Displacements and velocities of both ends over `V`, a time `s` after the impact: the low end stops dead, the high
+/// one swings until it comes back, then the bar flies at half the speed and vibrates.
 fn after_impact(s: f64) -> [f64; 4] {
     let (omega, flight) = (2.0_f64.sqrt(), 2.0);
     let r = s - std::f64::consts::PI / omega;
@@ -142,8 +142,8 @@ fn after_impact(s: f64) -> [f64; 4] {
     }
 }
 
-/// Mean over time, ends and eight places of the impact in its step: error of displacement and of velocity. A velocity that jumps a
-/// step too late is wrong by all of it for a step: the mean over time is what can be of first order.
+/// Mean over time, ends and eight places of the impact in its step: error of displacement and of velocity. A velocity
+/// that jumps a step too late is wrong by all of it for a step: the mean over time is what can be of first order.
 fn mean_errors(text: &str, theta: f64, level: &str, dt: f64) -> [f64; 2] {
     let mut sum = [0.0; 2];
     let places = 8;

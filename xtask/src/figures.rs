@@ -1,5 +1,5 @@
-//! The figures of \[Hu2022\] and \[Feng2007\], made again from runs: `docs/verification/hu2022.md`, `feng2007.md` and the pages
-//! beside their pictures.
+//! The figures of \[Hu2022\] and \[Feng2007\], made again from runs: `docs/verification/hu2022.md`, `feng2007.md` and
+//! the pages beside their pictures.
 
 mod cone;
 mod impact;
@@ -121,8 +121,8 @@ const STUDIES: [Study; 8] = [
     },
 ];
 
-/// Makes the figures of the named studies, of all without a name, and the pages that lead to them. A study that fails does not
-/// keep the others from being made.
+/// Makes the figures of the named studies, of all without a name, and the pages that lead to them. A study that fails
+/// does not keep the others from being made.
 pub(crate) fn run(names: &[String]) -> Outcome {
     let known = || STUDIES.iter().map(|study| study.name);
     if let Some(name) = names

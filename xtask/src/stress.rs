@@ -1,5 +1,5 @@
-//! A map of what the numerics survive: runs drawn from extremes, each of which completes with its audit closed or stops with
-//! a reason.
+//! A map of what the numerics survive: runs drawn from extremes, each of which completes with its audit closed or stops
+//! with a reason.
 
 mod audit;
 mod draw;

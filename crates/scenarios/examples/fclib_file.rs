@@ -4,8 +4,8 @@
 //! cargo run -p scenarios --example fclib_file
 //! ```
 //!
-//! Three contacts stand on one elastic block: pressing one moves the others. The first sticks, the second slips, the third
-//! opens. FCLib keeps the normal first, this workspace keeps it last; the writer and the reader turn it.
+//! Three contacts stand on one elastic block: pressing one moves the others. The first sticks, the second slips, the
+//! third opens. FCLib keeps the normal first, this workspace keeps it last; the writer and the reader turn it.
 
 use std::error::Error;
 
@@ -52,7 +52,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// `u = W r + q` with friction .3: `W` \[m/s per N s\] is the compliance of one block, `q` \[m/s\] what happens without contact.
+/// `u = W r + q` with friction .3: `W` \[m/s per N s\] is the compliance of one block, `q` \[m/s\] what happens without
+/// contact.
 fn three_contacts() -> Result<ContactProblem, Box<dyn Error>> {
     const CONTACTS: usize = 3;
     const SIZE: usize = 3 * CONTACTS;

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Energies at a time; works, dissipations and errors are sums since the start \[J\]. In `summary.json` under these names.
+/// Energies at a time; works, dissipations and errors are sums since the start \[J\]. In `summary.json` under these
+/// names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energies {
     /// Kinetic energy \[J\].

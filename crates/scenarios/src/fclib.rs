@@ -1,7 +1,7 @@
 //! Frictional contact problems written by other codes: Siconos `.dat` and FCLib `.hdf5`.
 //!
-//! Both keep the normal component first; problems here have it last, and the readers turn them ([`mod@write`] turns them back). What a file claims about
-//! its sizes is never believed further than its length allows.
+//! Both keep the normal component first; problems here have it last, and the readers turn them ([`mod@write`] turns
+//! them back). What a file claims about its sizes is never believed further than its length allows.
 
 pub mod dat;
 pub mod hdf5;

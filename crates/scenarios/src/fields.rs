@@ -1,11 +1,11 @@
 //! Fields of a state for files and pictures.
 
-use fe_core::{CellKind, ElementState};
+use fe_core::ElementState;
 use nscd::{ContactStatus, State};
 
 use crate::build::Built;
 use crate::contacts::NodeContact;
-use crate::output::{Array, CellShape, Cells, Frame, Values};
+use crate::output::{Array, Cells, Frame, Values};
 
 /// Fields of one state in the layout of the files.
 #[derive(Debug)]
@@ -25,8 +25,8 @@ pub struct Fields {
 }
 
 impl Fields {
-    /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip. The gap of a node without a contact
-    /// near is NaN.
+    /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip. The gap of a node without a
+    /// contact near is NaN.
     pub fn new(built: &Built, state: &State) -> Fields {
         let dim = built.model.solid.dim();
         let stress = stresses(built, state);
@@ -67,16 +67,6 @@ impl Fields {
     /// The fields with the mesh, ready to be written.
     pub fn frame<'a>(&'a self, built: &'a Built, state: &State) -> Frame<'a> {
         let mesh = built.model.solid.mesh();
-        let shape = |kind| match kind {
-            CellKind::Tri3 => CellShape::Tri3,
-            CellKind::Quad4 => CellShape::Quad4,
-            CellKind::Tet4 => CellShape::Tet4,
-            CellKind::Tri6 => CellShape::Tri6,
-            CellKind::Quad9 => CellShape::Quad9,
-            CellKind::Tet10 => CellShape::Tet10,
-            CellKind::Hex27 => CellShape::Hex27,
-            _ => CellShape::Hex8,
-        };
         let array = |name, values| Array { name, values };
         Frame {
             time: state.time,
@@ -85,7 +75,7 @@ impl Fields {
                 .blocks
                 .iter()
                 .map(|b| Cells {
-                    shape: shape(b.kind),
+                    kind: b.kind,
                     connectivity: &b.cells,
                 })
                 .collect(),

@@ -63,13 +63,15 @@ enum Command {
         /// Folder of the results; out/SCENE without it.
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
-        /// Change a value: any ending of its path that no other value has, as in mu=0.5, dt=1e-3, lower.mesh.cells=(4,4,2).
+        /// Change a value: any ending of its path that no other value has, as in mu=0.5, dt=1e-3,
+        /// lower.mesh.cells=(4,4,2).
         #[arg(long = "set", value_name = "PATH=VALUE")]
         sets: Vec<Override>,
         /// Number of threads; all cores without it. The results do not depend on it.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
         threads: Option<u16>,
-        /// Also write the contact problem of the N-th step as FCLib, contact_step_N.hdf5, for `setae contact` and others.
+        /// Also write the contact problem of the N-th step as FCLib, contact_step_N.hdf5, for `setae contact` and
+        /// others.
         #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
         dump_contact: Option<u32>,
         /// Print nothing but errors.

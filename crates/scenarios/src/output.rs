@@ -22,7 +22,7 @@ mod vtu;
 pub use self::csv::HistoryFile;
 pub use crate::energies::{ENERGY_TERMS, Energies, EnergyTerm};
 pub use folder::{Folder, OutputError};
-pub use frame::{Array, CellShape, Cells, Frame, Values};
+pub use frame::{Array, Cells, Frame, Values};
 pub use history::{Bonds, Force, History, Row};
 pub use plot::{
     Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, energy_svg, maps_svg,

@@ -195,7 +195,8 @@ fn energies(summary: &Summary) -> Rows {
     rows
 }
 
-/// Lines of cells under each other, all of the same number of cells: numbers to the right, the columns in `words` to the left.
+/// Lines of cells under each other, all of the same number of cells: numbers to the right, the columns in `words` to
+/// the left.
 pub fn columns(lines: &[Vec<String>], words: &[usize]) -> String {
     let count = lines.first().map_or(0, Vec::len);
     let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max();

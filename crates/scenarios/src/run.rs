@@ -43,8 +43,8 @@ pub fn run(
 /// What a run does besides what its scene says.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options<'a> {
-    /// The contact problem of the last iteration of this accepted step, from 1, is written as FCLib. Where that step has
-    /// none, a warning in the summary says so.
+    /// The contact problem of the last iteration of this accepted step, from 1, is written as FCLib. Where that step
+    /// has none, a warning in the summary says so.
     pub dump: Option<usize>,
     /// When this turns true, the run stops after the step that it computes, with all its results.
     pub stop: Option<&'a AtomicBool>,

@@ -4,8 +4,8 @@
 //! except where a field says degrees. Names of bodies, materials, interfaces, motions, loads and probes are
 //! letters, digits, `_` and `-`; a set is called `body.set`, with the sets that the [`Mesh`] names.
 //!
-//! Bodies with plane meshes make a plane scene: vectors keep three numbers, z is 0, and a rigid shape acts by its section
-//! at z = 0.
+//! Bodies with plane meshes make a plane scene: vectors keep three numbers, z is 0, and a rigid shape acts by its
+//! section at z = 0.
 
 mod body;
 mod check;
@@ -102,8 +102,8 @@ fn one() -> usize {
     1
 }
 
-/// Poisson's ratio beyond which elements with a pointwise dilatation deserve a word \[-\]: there their error is up to seven
-/// times that of projected ones, at .48 up to sixteen times (docs/theory/elements.md, locking).
+/// Poisson's ratio beyond which elements with a pointwise dilatation deserve a word \[-\]: there their error is up to
+/// seven times that of projected ones, at .48 up to sixteen times (docs/theory/elements.md, locking).
 const NOTABLE_POISSON_RATIO: f64 = 0.45;
 
 impl Scene {

@@ -74,9 +74,9 @@ impl Outcome {
 
 impl Sweep {
     /// Makes all runs, each into its folder under `out`, on `threads` threads: as many runs at a time as there are
-    /// threads, and several threads a run where there are fewer runs. `tell` is called after each run with its index and
-    /// the number of runs that have ended. The numbers of a run are those of the run alone, bit by bit. Writes `sweep.csv` when
-    /// all have ended.
+    /// threads, and several threads a run where there are fewer runs. `tell` is called after each run with its index
+    /// and the number of runs that have ended. The numbers of a run are those of the run alone, bit by bit. Writes
+    /// `sweep.csv` when all have ended.
     ///
     /// # Errors
     /// [`OutputError`] when `out` or the table cannot be written; a run that fails is an [`Outcome`].

@@ -16,7 +16,8 @@ pub(crate) struct Arguments {
     /// Name of a built-in scene, or a file.
     #[arg(value_name = "SCENE|FILE.ron")]
     scene: String,
-    /// Values of a field, found as by --set; commas inside of brackets and texts do not separate. The last --vary varies fastest.
+    /// Values of a field, found as by --set; commas inside of brackets and texts do not separate. The last --vary
+    /// varies fastest.
     #[arg(long = "vary", value_name = "PATH=VALUE,..", required = true)]
     varied: Vec<Vary>,
     /// Change a value of all runs, as in `setae run`.

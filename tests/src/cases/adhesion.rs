@@ -23,8 +23,9 @@ pub const SMALL: [&str; 2] = [
     "mesh.x=(from: 0.0, pieces: [Cells(to: 4.5e-3, cells: 40), Growing(to: 22.0e-3, growth: 1.06)])",
 ];
 
-/// Values that let `pull-off` jump into contact and out of it, as the ball does at a Maugis parameter of 2 and of 3: bonds with so
-/// little viscosity that the pull hardly sees it, a way that turns behind the largest pull, and rings for the softening at 3.
+/// Values that let `pull-off` jump into contact and out of it, as the ball does at a Maugis parameter of 2 and of 3:
+/// bonds with so little viscosity that the pull hardly sees it, a way that turns behind the largest pull, and rings for
+/// the softening at 3.
 pub const LARGE: [&str; 8] = [
     "b=4e-6",
     "adhesion.beta=0.0",

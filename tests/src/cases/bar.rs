@@ -86,7 +86,8 @@ pub fn exchange() -> Case {
     }
 }
 
-/// A free bar of four times the impedance of the striker: `v Z1 Z2 / (Z1 + Z2)` until the waves from the far ends are back.
+/// A free bar of four times the impedance of the striker: `v Z1 Z2 / (Z1 + Z2)` until the waves from the far ends are
+/// back.
 pub fn impedances() -> Case {
     Case {
         name: "bar-impedance",

@@ -1,4 +1,5 @@
-//! Hertz: rigid round bodies on an elastic one of `E* = 1e9 Pa`, their radius 1 m, the radius of contact 1 mm at the end.
+//! Hertz: rigid round bodies on an elastic one of `E* = 1e9 Pa`, their radius 1 m, the radius of contact 1 mm at the
+//! end.
 
 use crate::closed_form::{Pressed, hertz_cylinder_on_layer, hertz_sphere};
 use crate::traction::{INNER, ellipse, tractions};

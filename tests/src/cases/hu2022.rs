@@ -1,8 +1,8 @@
-//! The scenes with adhesion of \[Hu2022\], for which there is no closed form: mesh and step are halved together, the finest
-//! run is the reference, and further runs halve one of the two.
+//! The scenes with adhesion of \[Hu2022\], for which there is no closed form: mesh and step are halved together, the
+//! finest run is the reference, and further runs halve one of the two.
 //!
-//! Peaks are those of the parabola through the largest value and its neighbours, times those of the line between two steps,
-//! so that the steps do not quantise them.
+//! Peaks are those of the parabola through the largest value and its neighbours, times those of the line between two
+//! steps, so that the steps do not quantise them.
 
 use crate::curve::{Curve, falls_below, mean, peak};
 use crate::{Case, Found, Ladder, Ran};

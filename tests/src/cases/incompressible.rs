@@ -88,9 +88,9 @@ fn measure(ran: &Ran, theory: impl Fn(f64) -> f64) -> Result<Vec<Found>, String>
     ])
 }
 
-/// Root mean squares, over the nodes where four cells meet, of the part of the pressure that alternates around the node and of the
-/// mean of the four \[Pa\]. The part is 1/4 of the sum of opposite cells minus that of the others: the pressure itself for a
-/// checkerboard, of the order of the square of the size for a smooth field.
+/// Root mean squares, over the nodes where four cells meet, of the part of the pressure that alternates around the node
+/// and of the mean of the four \[Pa\]. The part is 1/4 of the sum of opposite cells minus that of the others: the
+/// pressure itself for a checkerboard, of the order of the square of the size for a smooth field.
 ///
 /// # Errors
 /// The end state has no stress.

@@ -15,7 +15,8 @@ const E: f64 = 1.0e7;
 const RADIUS: f64 = 1.0e-3;
 /// Of the flat punch \[-\].
 const PUNCH_NU: f64 = 0.3;
-/// Parts of the radius between which pressures are compared: outside of them a node's share reaches over the tip or the edge.
+/// Parts of the radius between which pressures are compared: outside of them a node's share reaches over the tip or the
+/// edge.
 const COMPARED: [f64; 2] = [0.15, 0.85];
 
 /// A law that, other than that of the scene, does not soften under the tip.
@@ -185,8 +186,8 @@ pub fn cone_with_strain(ran: &Ran) -> Result<f64, String> {
     Ok(1.0 + cone_strain_slope(cone.cubic, cone.nu) / cone.angle.tan())
 }
 
-/// Force over that of small strains, and the largest less the least: from depth to depth a node more or less is in contact, so
-/// the mean over the depths from half of the way on.
+/// Force over that of small strains, and the largest less the least: from depth to depth a node more or less is in
+/// contact, so the mean over the depths from half of the way on.
 ///
 /// # Errors
 /// The run is not one of a cone.

@@ -86,8 +86,8 @@ pub const FIVE: [&str; 6] = [
     "high.mesh.z.pieces=[Cells(to: 0.6e-3, cells: 3), Growing(to: 0.01, growth: 1.9)]",
 ];
 
-/// The mesh of `mindlin-sphere` with elements of 1/20 of the radius of contact where it slips, larger ones in the middle. Sizes change
-/// little by little: where they jump the share of a node lies beside it, and so does its pressure.
+/// The mesh of `mindlin-sphere` with elements of 1/20 of the radius of contact where it slips, larger ones in the
+/// middle. Sizes change little by little: where they jump the share of a node lies beside it, and so does its pressure.
 pub const RIM: [&str; 6] = [
     "low.mesh.x.pieces=[Cells(to: -1.1e-3, cells: 7, grading: 0.04), Cells(to: -0.55e-3, cells: 11), Cells(to: 0.0, cells: 6, grading: 2.5), Cells(to: 0.55e-3, cells: 6, grading: 0.4), Cells(to: 1.1e-3, cells: 11), Cells(to: 0.01, cells: 7, grading: 25.0)]",
     "high.mesh.x.pieces=[Cells(to: -1.1e-3, cells: 7, grading: 0.04), Cells(to: -0.55e-3, cells: 11), Cells(to: 0.0, cells: 6, grading: 2.5), Cells(to: 0.55e-3, cells: 6, grading: 0.4), Cells(to: 1.1e-3, cells: 11), Cells(to: 0.01, cells: 7, grading: 25.0)]",
@@ -115,16 +115,16 @@ pub fn first_loading(mesh: &[&str]) -> Plan {
 /// A moment of a first loading, beside what it should be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moment {
-    /// Side load over that of full slip [-].
+    /// Side load over that of full slip \[-\].
     pub q: f64,
-    /// Radius of what sticks over radius of contact, relative error [-].
+    /// Radius of what sticks over radius of contact, relative error \[-\].
     pub stick: f64,
-    /// Energy lost, relative error [-].
+    /// Energy lost, relative error \[-\].
     pub loss: f64,
 }
 
-/// The moments of a [`first_loading`]. It loses a quarter of what a cycle between `-T` and `T` loses: on the way back, and forth again,
-/// the same places slip twice as far under the same friction.
+/// The moments of a [`first_loading`]. It loses a quarter of what a cycle between `-T` and `T` loses: on the way back,
+/// and forth again, the same places slip twice as far under the same friction.
 ///
 /// # Errors
 /// The run is no such loading or did not reach its end.

@@ -7,14 +7,14 @@ pub const DMT: f64 = 2.0;
 /// JKR: the same where bonds are short against the deformation \[Johnson1971\].
 pub const JKR: f64 = 1.5;
 
-/// Maugis parameter \[-\] of a ball of radius `r` \[m\], bonds of energy `w` \[J/m^2\] and stiffness `c` \[N/m^3\] on a half-space of
-/// `e_star` \[Pa\]: `2 s0 (9 R / (16 pi w E*^2))^(1/3)`, `s0 = sqrt(w C)`.
+/// Maugis parameter \[-\] of a ball of radius `r` \[m\], bonds of energy `w` \[J/m^2\] and stiffness `c` \[N/m^3\] on a
+/// half-space of `e_star` \[Pa\]: `2 s0 (9 R / (16 pi w E*^2))^(1/3)`, `s0 = sqrt(w C)`.
 pub fn maugis_parameter(e_star: f64, r: f64, w: f64, c: f64) -> f64 {
     2.0 * (w * c).sqrt() * (9.0 * r / (16.0 * PI * w * e_star * e_star)).cbrt()
 }
 
-/// Maugis: the pull-off force over `pi w R` \[-\] where bonds carry the same stress until they break, for a Maugis parameter > 0
-/// \[Maugis1992\].
+/// Maugis: the pull-off force over `pi w R` \[-\] where bonds carry the same stress until they break, for a Maugis
+/// parameter > 0 \[Maugis1992\].
 pub fn maugis_dugdale(lambda: f64) -> f64 {
     // The pull over the ratio m > 1 of the outer and the inner radius of the ring of bonds; x = ln(m - 1).
     let pull = |x: f64| {
@@ -40,9 +40,9 @@ pub fn maugis_dugdale(lambda: f64) -> f64 {
     pull(0.5 * (low + high))
 }
 
-/// Intensity \[-\] of a bond that was whole and is stretched at a constant rate from zero, at `s` times the stretch at which bonds
-/// start to break; `de = b v / (w x0)` \[-\] \[Raous1999\]:
-/// `beta = exp((1 - s^3)/(3 De)) + int_1^s exp((r^3 - s^3)/(3 De)) dr / De`.
+/// Intensity \[-\] of a bond that was whole and is stretched at a constant rate from zero, at `s` times the stretch at
+/// which bonds start to break; `de = b v / (w x0)` \[-\] \[Raous1999\]: `beta = exp((1 - s^3)/(3 De)) + int_1^s
+/// exp((r^3 - s^3)/(3 De)) dr / De`.
 pub fn bond_ramp(de: f64, s: f64) -> f64 {
     if s <= 1.0 {
         return 1.0;
@@ -68,8 +68,9 @@ pub fn bond_ramp(de: f64, s: f64) -> f64 {
     weight(1.0) + (0..=panels).map(node).sum::<f64>() * h / (3.0 * de)
 }
 
-/// Steady force per width [N/m] that peels a strip of `stiffness` `E' t` [N/m] and bonds of energy `w` \[J/m^2\] off at a right
-/// angle: the end moves by `1 + F / (E' t)` per length, half of the stretch stays in the strip \[Kendall1975\].
+/// Steady force per width \[N/m\] that peels a strip of `stiffness` `E' t` \[N/m\] and bonds of energy `w` \[J/m^2\]
+/// off at a right angle: the end moves by `1 + F / (E' t)` per length, half of the stretch stays in the strip
+/// \[Kendall1975\].
 pub fn peel_force(w: f64, stiffness: f64) -> f64 {
     2.0 * w / (1.0 + (1.0 + 2.0 * w / stiffness).sqrt())
 }

@@ -1,9 +1,9 @@
 //! What finite strain does to the force on a cone, to the first order in how steep it is.
 //!
-//! The least energy of a pressed body changes, when terms are added to the energy or to the constraint, by those terms at the
-//! unchanged solution. Beside Boussinesq and Love's these are the energy of the third order in the displacement gradient,
-//! and that a point of the surface meets the cone where it moves to, not where it came from. Both are integrals over the
-//! field of small strains. No mesh, no contact solver, no element has a part in it.
+//! The least energy of a pressed body changes, when terms are added to the energy or to the constraint, by those terms
+//! at the unchanged solution. Beside Boussinesq and Love's these are the energy of the third order in the displacement
+//! gradient, and that a point of the surface meets the cone where it moves to, not where it came from. Both are
+//! integrals over the field of small strains. No mesh, no contact solver, no element has a part in it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -12,11 +12,11 @@ use num_complex::Complex64;
 /// Points of the quadrature in each direction.
 const POINTS: u32 = 160;
 
-/// A displacement gradient [-].
+/// A displacement gradient \[-\].
 pub type Gradient = [[f64; 3]; 3];
 
-/// The part of an energy that is of the third order in the displacement gradient, over the shear modulus; second argument is
-/// Lame's first modulus over it.
+/// The part of an energy that is of the third order in the displacement gradient, over the shear modulus; second
+/// argument is Lame's first modulus over it.
 pub type Cubic = fn(&Gradient, f64) -> f64;
 
 /// Of `lambda/2 (tr E)^2 + G E:E`.
@@ -53,7 +53,7 @@ fn contract(a: &Gradient, b: &Gradient) -> f64 {
         .sum()
 }
 
-/// `c` of `P = (2/pi) E/(1-nu^2) tan(alpha) d^2 (1 + c cot(alpha))`, without friction [-].
+/// `c` of `P = (2/pi) E/(1-nu^2) tan(alpha) d^2 (1 + c cot(alpha))`, without friction \[-\].
 pub fn cone_strain_slope(cubic: Cubic, nu: f64) -> f64 {
     let lambda = 2.0 * nu / (1.0 - 2.0 * nu);
     let inside = integral(nu, |h| cubic(h, lambda));
@@ -106,17 +106,18 @@ fn nodes(length: f64) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// Displacement and its gradient under a cone, both small, where radius of contact, cotangent and shear modulus are 1. Axes are
-/// radius, depth into the body, hoop.
+/// Displacement and its gradient under a cone, both small, where radius of contact, cotangent and shear modulus are 1.
+/// Axes are radius, depth into the body, hoop.
 struct Field {
     radial: f64,
     gradient: Gradient,
 }
 
 impl Field {
-    /// Boussinesq's potentials `V = int p/rho dA` and `X` with `dX/dz = V`. The pressure of a cone is that of flat punches of all
-    /// radii up to its own, whose potential is that of sources `i t` above the surface: with `R^2 = r^2 + s^2`,
-    /// `f = R - s ln(s + R)`, `V` is twice the real part of `f` at `s = z + i` less `f` at `s = z`, times `pi/(1 - nu)`.
+    /// Boussinesq's potentials `V = int p/rho dA` and `X` with `dX/dz = V`. The pressure of a cone is that of flat
+    /// punches of all radii up to its own, whose potential is that of sources `i t` above the surface: with `R^2 = r^2
+    /// + s^2`, `f = R - s ln(s + R)`, `V` is twice the real part of `f` at `s = z + i` less `f` at `s = z`, times
+    /// `pi/(1 - nu)`.
     fn at(r: f64, z: f64, nu: f64) -> Field {
         let source = |s: Complex64| (s, (s * s + r * r).sqrt());
         let (far, near) = (

@@ -11,8 +11,8 @@ pub struct BarImpact {
     pub force: f64,
 }
 
-/// A bar of a length \[m\], wave speed \[m/s\], density \[kg/m^3\], velocity \[m/s\] and area \[m^2\] that hits a rigid wall: the
-/// wave runs to the free end and back.
+/// A bar of a length \[m\], wave speed \[m/s\], density \[kg/m^3\], velocity \[m/s\] and area \[m^2\] that hits a rigid
+/// wall: the wave runs to the free end and back.
 pub fn bar_on_wall(length: f64, c: f64, density: f64, velocity: f64, area: f64) -> BarImpact {
     BarImpact {
         duration: 2.0 * length / c,
@@ -20,8 +20,8 @@ pub fn bar_on_wall(length: f64, c: f64, density: f64, velocity: f64, area: f64) 
     }
 }
 
-/// The same against an equal bar that is clamped at its far end; `z = rho c A` is the impedance \[kg/s\]. The wave in the struck bar
-/// comes back when that of the striker does and takes its place, and both run once more.
+/// The same against an equal bar that is clamped at its far end; `z = rho c A` is the impedance \[kg/s\]. The wave in
+/// the struck bar comes back when that of the striker does and takes its place, and both run once more.
 pub fn bar_on_clamped_bar(length: f64, c: f64, z: f64, velocity: f64) -> BarImpact {
     BarImpact {
         duration: 4.0 * length / c,
@@ -29,7 +29,8 @@ pub fn bar_on_clamped_bar(length: f64, c: f64, z: f64, velocity: f64) -> BarImpa
     }
 }
 
-/// A bar of impedance `z1` against a free one of impedance `z2` \[kg/s\], not smaller, in which a wave takes as long there and back.
+/// A bar of impedance `z1` against a free one of impedance `z2` \[kg/s\], not smaller, in which a wave takes as long
+/// there and back.
 pub fn bar_exchange(length: f64, c: f64, z1: f64, z2: f64, velocity: f64) -> BarImpact {
     BarImpact {
         duration: 2.0 * length / c,

@@ -36,9 +36,10 @@ impl Oblique {
         psi - 4.0 * self.chi()
     }
 
-    /// The rebound for any `psi >= 0`, computed with independent springs (Popov's reduction of dimension, which is exact for a contact without
-    /// coupling of normal and tangential motion, as the theory assumes): a row of springs under the profile `x^2`, normal stiffness 1
-    /// and tangential `2 (1 - nu)/(2 - nu)` a length, each with its own Coulomb friction.
+    /// The rebound for any `psi >= 0`, computed with independent springs (Popov's reduction of dimension, which is
+    /// exact for a contact without coupling of normal and tangential motion, as the theory assumes): a row of springs
+    /// under the profile `x^2`, normal stiffness 1 and tangential `2 (1 - nu)/(2 - nu)` a length, each with its own
+    /// Coulomb friction.
     pub fn rebound(&self, psi: f64) -> Rebound {
         const SPRINGS: usize = 400;
         const STEPS: f64 = 4000.0;

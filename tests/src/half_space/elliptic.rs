@@ -12,8 +12,8 @@ pub(super) fn disc(r: f64, c: f64) -> f64 {
     4.0 * r / PI * (e - (1.0 - (c / r).powi(2)) * k)
 }
 
-/// Complete elliptic integrals of the first and the second kind of the modulus `k` \[-\], 0 <= k < 1, by the arithmetic-geometric
-/// mean; at `k = 1` the second only, the first being infinite.
+/// Complete elliptic integrals of the first and the second kind of the modulus `k` \[-\], 0 <= k < 1, by the
+/// arithmetic-geometric mean; at `k = 1` the second only, the first being infinite.
 fn elliptic(modulus: f64) -> (f64, f64) {
     if modulus == 1.0 {
         return (f64::INFINITY, 1.0);

@@ -4,8 +4,8 @@ use contact_bipotential::rcc::{Adhesion, Healing, Update};
 
 use crate::common::{Run, scene_text, try_run_built};
 
-/// Two unit cubes of `E = 1 MPa` without lateral strain in one another's way: pressed together for .6 s, pulled apart by
-/// .1 m, closed again for .6 s, pulled again. Bonds soften at .01 m and heal at 2 per second.
+/// Two unit cubes of `E = 1 MPa` without lateral strain in one another's way: pressed together for .6 s, pulled apart
+/// by .1 m, closed again for .6 s, pulled again. Bonds soften at .01 m and heal at 2 per second.
 const PULL: &str = r#"(
     title: "pull, close, pull",
     materials: {"m": (law: SaintVenantKirchhoff(E: 1.0e6, nu: 0.0), density: 1.0)},
@@ -60,7 +60,7 @@ fn at(curve: &[[f64; 3]], t: f64) -> [f64; 3] {
         .unwrap()
 }
 
-/// Deepest pull between two times [N].
+/// Deepest pull between two times \[N\].
 fn peak(curve: &[[f64; 3]], from: f64, to: f64) -> f64 {
     let within = curve.iter().filter(|c| c[0] >= from && c[0] <= to);
     within.fold(0.0, |m: f64, c| m.max(-c[1]))

@@ -87,7 +87,8 @@ fn a_slower_descent_bonds_more_and_a_rougher_plate_debonds_later() {
     );
 }
 
-/// Figure 8 of Hu et al. 2022: bonds form at the rate `w / b` whatever the wheel, and a stiffer one breaks them earlier.
+/// Figure 8 of Hu et al. 2022: bonds form at the rate `w / b` whatever the wheel, and a stiffer one breaks them
+/// earlier.
 #[test]
 fn a_stiffer_wheel_bonds_alike_and_debonds_earlier() {
     let dt = 1e-4;
@@ -182,7 +183,8 @@ fn strongest_pull(run: &Run, node: u32) -> f64 {
     bonds.map(|b| -b.force[2]).fold(0.0, f64::max)
 }
 
-/// Bonds that reach far compared to the dent (Derjaguin, Muller and Toporov) pull off at `2 pi R w`, however stiff they are.
+/// Bonds that reach far compared to the dent (Derjaguin, Muller and Toporov) pull off at `2 pi R w`, however stiff they
+/// are.
 #[test]
 fn an_indented_block_debonds_inwards_at_the_force_of_its_energy() {
     let mut results = Vec::new();

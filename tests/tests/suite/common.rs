@@ -143,7 +143,7 @@ impl Run {
         self.steps.last().unwrap()
     }
 
-    /// Force of the first interface along axis `c` at the end of every step [N].
+    /// Force of the first interface along axis `c` at the end of every step \[N\].
     pub(crate) fn contact_force(&self, c: usize) -> Vec<f64> {
         self.steps
             .iter()
@@ -151,7 +151,7 @@ impl Run {
             .collect()
     }
 
-    /// Fails unless every step is converged and its energy audit closes to `share` of `scale` [J].
+    /// Fails unless every step is converged and its energy audit closes to `share` of `scale` \[J\].
     pub(crate) fn assert_audited(&self, scale: f64, share: f64) {
         let start = &self.start;
         let mut before = start.kinetic_energy + start.strain_energy + start.adhesive_energy;
@@ -183,14 +183,14 @@ impl Run {
         );
     }
 
-    /// Momentum [N s] of all bodies at a state.
+    /// Momentum \[N s\] of all bodies at a state.
     pub(crate) fn momentum(&self, state: &State) -> [f64; 3] {
         let mut p = vec![0.0; state.v.len()];
         self.built.model.mass.times(&state.v, &mut p);
         std::array::from_fn(|c| p.iter().skip(c).step_by(3).sum())
     }
 
-    /// Angular momentum about the origin [N m s].
+    /// Angular momentum about the origin \[N m s\].
     pub(crate) fn angular_momentum(&self, state: &State) -> [f64; 3] {
         let mut p = vec![0.0; state.v.len()];
         self.built.model.mass.times(&state.v, &mut p);

@@ -99,7 +99,7 @@ fn text(s: &Small) -> String {
     )
 }
 
-/// Smallest increment of a term over the steps [J].
+/// Smallest increment of a term over the steps \[J\].
 fn least(run: &Run, term: impl Fn(&nscd::EnergyTerms) -> f64) -> f64 {
     run.steps
         .iter()

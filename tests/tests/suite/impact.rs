@@ -4,7 +4,7 @@ use contact_bipotential::{Cone, Detector};
 
 use crate::common::{Run, chatter, run, scene};
 
-/// Kinetic energy at the start [J]: a block of 1 m^3 and 100 kg/m^3 at (0, 1.5, -1) m/s.
+/// Kinetic energy at the start \[J\]: a block of 1 m^3 and 100 kg/m^3 at (0, 1.5, -1) m/s.
 const E0: f64 = 162.5;
 
 fn impact(sets: &[&str]) -> Run {

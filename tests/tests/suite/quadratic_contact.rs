@@ -167,7 +167,8 @@ fn stacked_quadratic_blocks_pass_the_patch_test() {
     }
 }
 
-/// Nodes on nodes, but elements of different kinds, whose sides bulge differently: the corners overhang by round-off of strains.
+/// Nodes on nodes, but elements of different kinds, whose sides bulge differently: the corners overhang by round-off of
+/// strains.
 #[test]
 fn tetrahedra_on_hexahedra_with_the_same_nodes_converge() {
     let text = r#"(

@@ -32,7 +32,7 @@ fn block(
     .replace("], material", "), material")
 }
 
-/// Mean velocity of all matter [m/s].
+/// Mean velocity of all matter \[m/s\].
 fn mean_velocity(run: &Run, state: &nscd::State) -> [f64; 3] {
     run.momentum(state)
         .map(|p| p / run.built.model.mass.total())

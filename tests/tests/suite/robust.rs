@@ -160,8 +160,8 @@ fn a_ball_that_jumps_through_a_node_is_noticed() {
     assert!(slow.contact_force(1).iter().any(|f| *f > 1.0));
 }
 
-/// Without inertia a block that only rests on a plane, guided from the side, carries its load; without a plane to rest on it
-/// is told that nothing holds it.
+/// Without inertia a block that only rests on a plane, guided from the side, carries its load; without a plane to rest
+/// on it is told that nothing holds it.
 #[test]
 fn contact_alone_may_hold_a_quasi_static_body() {
     let text = |gap: f64| {
@@ -189,8 +189,8 @@ fn contact_alone_may_hold_a_quasi_static_body() {
     assert!(matches!(failure, StepFailure::Adrift { .. }), "{failure}");
 }
 
-/// An overlap deeper than the search is refused before the first step, with the node; a node that only lies on a side of the
-/// other body, or above it, is not taken for one.
+/// An overlap deeper than the search is refused before the first step, with the node; a node that only lies on a side
+/// of the other body, or above it, is not taken for one.
 #[test]
 fn an_overlap_that_the_search_does_not_see_is_refused() {
     let pair = |space: bool, shift: [f64; 2]| {
@@ -248,8 +248,8 @@ fn an_overlap_that_the_search_does_not_see_is_refused() {
     }
 }
 
-/// Nodes that lie on a side of the other body as well, because both bodies are as wide, are no exception; a body that another
-/// interface pushes out is.
+/// Nodes that lie on a side of the other body as well, because both bodies are as wide, are no exception; a body that
+/// another interface pushes out is.
 #[test]
 fn overlaps_of_bodies_with_a_side_in_common_are_seen_and_press_fits_are_let_through() {
     let start = |loaded: &LoadedScene| {
@@ -291,8 +291,8 @@ fn overlaps_of_bodies_with_a_side_in_common_are_seen_and_press_fits_are_let_thro
     assert!(fit.totals.overlap.is_none() && fit.totals.max_penetration < 1e-12);
 }
 
-/// A bar so soft that it bulges over the rim of the one that it hits goes on beside and through it: nothing holds it there, but
-/// the end of the run says so.
+/// A bar so soft that it bulges over the rim of the one that it hits goes on beside and through it: nothing holds it
+/// there, but the end of the run says so.
 #[test]
 fn nodes_that_came_in_through_a_side_are_told_at_the_end() {
     let text = r#"(
@@ -318,8 +318,8 @@ fn nodes_that_came_in_through_a_side_are_told_at_the_end() {
     assert!(run.totals.max_penetration >= overlap.depth);
 }
 
-/// Gravity that pulls two blocks through each other at the velocity level, which keeps overlaps: a corner that slips in round the
-/// rim and comes to lie under its master is noticed.
+/// Gravity that pulls two blocks through each other at the velocity level, which keeps overlaps: a corner that slips in
+/// round the rim and comes to lie under its master is noticed.
 #[test]
 fn a_contact_that_is_lost_inside_its_master_stops_the_run() {
     let text = r#"(

@@ -20,8 +20,8 @@ const PICTURES: [usize; 3] = [0, 39, 59];
 const PAPER_VON_MISES: [f64; 2] = [1330.0, 3330.0];
 /// Digits in tables.
 const ROUND: usize = 3;
-/// Middles of the lower side of the upper block, of its trailing and of its leading edge: the paper's points are lost with its
-/// figure 5.
+/// Middles of the lower side of the upper block, of its trailing and of its leading edge: the paper's points are lost
+/// with its figure 5.
 const PROBES: &str = "output.probes={\"A\": (body: \"upper\", node: (1.0, 0.5, 1.25), quantities: [von_mises]), \
                       \"B\": (body: \"upper\", node: (1.0, 0.0, 1.25), quantities: [displacement]), \
                       \"C\": (body: \"upper\", node: (1.0, 1.0, 1.25), quantities: [von_mises])}";
@@ -166,7 +166,7 @@ fn nodal_axial_stress(run: &Ran, state: &State, node: u32) -> f64 {
         _ => None,
     });
     let nodes = frame.cells.iter().flat_map(|cells| {
-        let count = cells.shape.node_count();
+        let count = cells.kind.node_count();
         cells.connectivity.chunks_exact(count)
     });
     let around = nodes

@@ -8,7 +8,7 @@ use super::Figure;
 use super::measure::{digits, first_above, first_below_after_peak, peak};
 use super::runs::{Planned, Ran, Shown, curve_each, over_time};
 
-/// `w` [J/m^2] and `C_n` [N/m^3].
+/// `w` \[J/m^2\] and `C_n` \[N/m^3\].
 const CASES: [(f64, f64); 3] = [(20.0, 2e9), (20.0, 4e9), (40.0, 2e9)];
 /// Nodes outward from the pole.
 const NODES: usize = 7;

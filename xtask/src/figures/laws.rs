@@ -329,7 +329,8 @@ fn tangential() -> Result<Figure, String> {
     })
 }
 
-/// Size of the traction over the plane of slips, and the largest angle between the traction and minus the slip \[degrees\].
+/// Size of the traction over the plane of slips, and the largest angle between the traction and minus the slip
+/// \[degrees\].
 fn map(law: &Adhesion) -> (MapFrame, f64) {
     let reach = REACH * law.damage_gap();
     let mut frame = MapFrame {

@@ -1,8 +1,9 @@
 //! What the figures take from runs.
 
+use fe_core::CellKind;
 use nscd::State;
 use scenarios::fields::Fields;
-use scenarios::output::{Array, Axis, CellShape, Cells, Chart, Curve, Frame, Values, deformed_svg};
+use scenarios::output::{Array, Axis, Cells, Chart, Curve, Frame, Values, deformed_svg};
 use tests::compute_all;
 pub(super) use tests::{Plan as Planned, Ran};
 
@@ -12,7 +13,8 @@ pub(super) trait Shown {
     fn named_curve(&self, name: &str, x: &str, y: &str) -> Result<Curve, String>;
     /// Picture of the bodies at a time of the plan, coloured by the von Mises stress.
     fn deformed(&self, title: &str, index: usize) -> Result<String, String>;
-    /// The same of a plane scene, and only of the elements with `|x|` and `|y|` below `near` \[m\] in the reference state.
+    /// The same of a plane scene, and only of the elements with `|x|` and `|y|` below `near` \[m\] in the reference
+    /// state.
     fn near(&self, title: &str, index: usize, near: f64) -> Result<String, String>;
     /// Reference position of the node that a probe follows \[m\].
     fn place(&self, probe: &str) -> Result<[f64; 3], String>;
@@ -36,21 +38,21 @@ impl Shown for Ran {
         let stress = frame.cell_scalar("von_mises").unwrap_or_default();
         let shown = |node: &u32| frame.points[*node as usize].iter().all(|x| x.abs() < near);
         let mut values = stress.iter();
-        let mut kept: Vec<(CellShape, Vec<u32>)> = Vec::new();
+        let mut kept: Vec<(CellKind, Vec<u32>)> = Vec::new();
         let mut kept_stress = Vec::new();
         for cells in &frame.cells {
             let mut connectivity = Vec::new();
-            let all = cells.connectivity.chunks_exact(cells.shape.node_count());
+            let all = cells.connectivity.chunks_exact(cells.kind.node_count());
             for (cell, value) in all.zip(values.by_ref()) {
                 if cell.iter().all(shown) {
                     connectivity.extend_from_slice(cell);
                     kept_stress.push(*value);
                 }
             }
-            kept.push((cells.shape, connectivity));
+            kept.push((cells.kind, connectivity));
         }
-        let cells = kept.iter().map(|(shape, connectivity)| Cells {
-            shape: *shape,
+        let cells = kept.iter().map(|(kind, connectivity)| Cells {
+            kind: *kind,
             connectivity,
         });
         let values = Values::Scalar(&kept_stress);

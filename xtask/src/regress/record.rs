@@ -8,8 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Findings;
 
-/// Largest difference of a number, relative to the largest of its family \[-\]. Another machine sums in another order, and
-/// friction amplifies that; a change of algorithm that is seen in the third digit of the error it makes is far above.
+/// Largest difference of a number, relative to the largest of its family \[-\]. Another machine sums in another order,
+/// and friction amplifies that; a change of algorithm that is seen in the third digit of the error it makes is far
+/// above.
 const TOLERANCE: f64 = 1e-5;
 
 /// Columns that hold round-off, and the most that they may hold.

@@ -96,8 +96,8 @@ impl<'a> Auditor<'a> {
         Ok(())
     }
 
-    /// Force that the round-off of positions of the size `extent` \[m\] makes by stiffness, damping and inertia, with room for
-    /// the sums \[N\].
+    /// Force that the round-off of positions of the size `extent` \[m\] makes by stiffness, damping and inertia, with
+    /// room for the sums \[N\].
     fn round_off(&self, extent: f64, state: &State, dt: f64) -> f64 {
         let damping = &self.model.damping;
         let drag = (damping.mass * self.mass + damping.stiffness * self.stiffness) / dt;
@@ -395,7 +395,7 @@ fn finite(state: &State, report: &StepReport) -> Result<(), String> {
     Ok(())
 }
 
-/// How stiff the stiffest unknown is, about [N/m].
+/// How stiff the stiffest unknown is, about \[N/m\].
 fn stiffness(model: &Model, u: &[f64]) -> Result<f64, String> {
     let n = model.dof_count();
     let (mut work, mut force) = (model.solid.workspace(), vec![0.0; n]);

@@ -123,8 +123,8 @@ fn distance(shape: &Shape, x: Point) -> f64 {
     }
 }
 
-/// Distance to the master's facets of a node that lies in an element of another body, else zero. A node that is nearer to a
-/// side of the body which is no master came in there, past the rim: nothing holds it up.
+/// Distance to the master's facets of a node that lies in an element of another body, else zero. A node that is nearer
+/// to a side of the body which is no master came in there, past the rim: nothing holds it up.
 fn depth_in_body(model: &Model, facets: &[Facet], x: &[Point], node: u32) -> f64 {
     let at = x[node as usize];
     let bodies = model.solid.bodies();
@@ -180,8 +180,8 @@ fn faces(dim: usize, cell: &[u32]) -> Vec<Vec<u32>> {
     sets.iter().map(face).collect()
 }
 
-/// Whether a point lies in an element with straight edges, cut into simplices. Where a crushed element is no longer convex, a
-/// simplex turned inside out takes away what another one has too much.
+/// Whether a point lies in an element with straight edges, cut into simplices. Where a crushed element is no longer
+/// convex, a simplex turned inside out takes away what another one has too much.
 fn is_in_cell(dim: usize, cell: &[u32], x: &[Point], at: Point) -> bool {
     let corner = |i: &usize| x[cell[*i] as usize];
     let triangles = |sets: &[[usize; 3]]| -> i32 {

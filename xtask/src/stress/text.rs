@@ -236,8 +236,8 @@ impl Writer<'_> {
         text
     }
 
-    /// Displacements across and towards the other side over time: press, then drag, then perhaps pull back; or to and fro
-    /// with every step. `sign` is 1 for what comes from below.
+    /// Displacements across and towards the other side over time: press, then drag, then perhaps pull back; or to and
+    /// fro with every step. `sign` is 1 for what comes from below.
     fn tables(&self, sign: f64) -> [String; 2] {
         let draw = self.draw;
         let (end, deep) = (self.end(), sign * (draw.gap.max(0.0) + draw.depth));

@@ -7,11 +7,11 @@ use hdf5_pure::{FileBuilder, LibVer};
 
 use super::FclibError;
 
-/// The bytes of a file `/fclib_local` with `W` by compressed columns (`nz = -1`) and the normal first; `path` is only for
-/// messages.
+/// The bytes of a file `/fclib_local` with `W` by compressed columns (`nz = -1`) and the normal first; `path` is only
+/// for messages.
 ///
-/// A problem without friction has one row a contact, which other codes do not know: it is written in three dimensions, with
-/// `mu = 0` and tangents that nothing moves. Its normal reactions and `|u|` are the same.
+/// A problem without friction has one row a contact, which other codes do not know: it is written in three dimensions,
+/// with `mu = 0` and tangents that nothing moves. Its normal reactions and `|u|` are the same.
 ///
 /// # Errors
 /// [`FclibError::File`] for more entries than the format counts, or what the writer says.

@@ -62,7 +62,8 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Energy audit.
     pub energy: EnergySummary,
-    /// Deepest penetration at the end of an accepted step, and of slave nodes without contact at the end of the run \[m\].
+    /// Deepest penetration at the end of an accepted step, and of slave nodes without contact at the end of the run
+    /// \[m\].
     pub max_penetration: f64,
     /// Largest relative error of the contact law in an accepted step \[-\].
     pub max_contact_error: f64,
@@ -91,8 +92,8 @@ impl EnergySummary {
         }
     }
 
-    /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was stored
-    /// during the run \[J\].
+    /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was
+    /// stored during the run \[J\].
     pub fn integration_share(&self, largest: f64) -> f64 {
         let scale = largest
             .max(self.initial.abs())

@@ -155,9 +155,9 @@ impl Appended {
                     .flat_map(|node| i64::from(*node).to_le_bytes()),
             );
             for _ in 0..cells.count() {
-                end += cells.shape.node_count() as i64;
+                end += cells.kind.node_count() as i64;
                 offsets.extend(end.to_le_bytes());
-                types.push(cells.shape.vtk_type());
+                types.push(cells.kind.vtk_type());
             }
         }
         Ok(self.array("Int64", "connectivity", "", &connectivity)?

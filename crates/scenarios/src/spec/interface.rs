@@ -95,8 +95,8 @@ impl Stiffness {
     }
 }
 
-/// The master side of an interface. A rigid shape is free space outside. In a plane scene its section at z = 0 counts; in an
-/// axisymmetric one that section sweeps a ring round the axis, so that a ball beside the axis is an O-ring.
+/// The master side of an interface. A rigid shape is free space outside. In a plane scene its section at z = 0 counts;
+/// in an axisymmetric one that section sweeps a ring round the axis, so that a ball beside the axis is an O-ring.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Master {

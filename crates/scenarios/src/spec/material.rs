@@ -37,8 +37,8 @@ pub enum Law {
         #[serde(default)]
         lambda: Option<f64>,
     },
-    /// Energy of fourth order in the Green-Lagrange strain [Feng2007, eq. 16]: `z = tr(E)/sqrt 3` is the change of volume,
-    /// `q = tr(E_d^2)` the shear.
+    /// Energy of fourth order in the Green-Lagrange strain [Feng2007, eq. 16]: `z = tr(E)/sqrt 3` is the change of
+    /// volume, `q = tr(E_d^2)` the shear.
     #[allow(non_snake_case)]
     ThreeE {
         /// Initial shear modulus \[Pa\].

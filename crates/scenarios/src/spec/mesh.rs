@@ -9,8 +9,8 @@ use fe_core::{
 use serde::de::{self, EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, forward_to_deserialize_any};
 
-/// Mesh of a body. All meshes have the node set `all`; the other sets are of nodes and facets unless said. Cells are counted
-/// before the `refine` of the scene.
+/// Mesh of a body. All meshes have the node set `all`; the other sets are of nodes and facets unless said. Cells are
+/// counted before the `refine` of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Mesh {
     /// Structured block. Sets `x_min` .. `z_max`.
@@ -67,7 +67,8 @@ pub struct SolidGrid {
     /// A kind of solid cells.
     #[serde(rename = "element", default = "text::hexahedra", with = "text::solid")]
     pub kind: CellKind,
-    /// Radius of curvature of the top at x = y = 0 \[m\]: `z_max` bends down by `(x^2 + y^2) / (2 R)`; flat when absent.
+    /// Radius of curvature of the top at x = y = 0 \[m\]: `z_max` bends down by `(x^2 + y^2) / (2 R)`; flat when
+    /// absent.
     #[serde(default)]
     pub crown: Option<f64>,
 }

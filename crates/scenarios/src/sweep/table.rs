@@ -22,8 +22,9 @@ const COLUMNS: [&str; 12] = [
 ];
 
 impl Sweep {
-    /// `sweep.csv`: the varied fields by their full paths, how each run ended and what it cost, energies at the end, then `peak.force.<name>` \[N\] (largest
-    /// norm) and `peak.force.<name>.t` \[s\] of every force, and the last value of every probe. What a run does not have is empty.
+    /// `sweep.csv`: the varied fields by their full paths, how each run ended and what it cost, energies at the end,
+    /// then `peak.force.<name>` \[N\] (largest norm) and `peak.force.<name>.t` \[s\] of every force, and the last value
+    /// of every probe. What a run does not have is empty.
     pub(super) fn csv(&self, outcomes: &[Outcome]) -> Result<Vec<u8>, OutputError> {
         let measures: Vec<Vec<(String, f64)>> = outcomes.iter().map(measures).collect();
         let mut names: Vec<&String> = Vec::new();

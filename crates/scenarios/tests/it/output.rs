@@ -2,12 +2,13 @@
 
 use std::fs;
 
+use fe_core::CellKind;
 use nalgebra::Vector3;
 use proptest::prelude::*;
 use scenarios::catalog;
 use scenarios::output::{
-    Array, CellShape, Cells, Energies, EnergySummary, Folder, Force, Frame, Results, Row, Status,
-    Summary, Values, vtu_bytes,
+    Array, Cells, Energies, EnergySummary, Folder, Force, Frame, Results, Row, Status, Summary,
+    Values, vtu_bytes,
 };
 use scenarios::spec::Override;
 
@@ -38,8 +39,8 @@ proptest! {
             time,
             points: &points,
             cells: vec![
-                Cells { shape: CellShape::Hex8, connectivity: &HEX },
-                Cells { shape: CellShape::Tet4, connectivity: &TET },
+                Cells { kind: CellKind::Hex8, connectivity: &HEX },
+                Cells { kind: CellKind::Tet4, connectivity: &TET },
             ],
             point_data: vec![
                 Array { name: "displacement", values: Values::Vector(&vector) },
@@ -226,7 +227,7 @@ fn wrong_fields_are_refused() {
         time: 0.5,
         points: &points,
         cells: vec![Cells {
-            shape: CellShape::Hex8,
+            kind: CellKind::Hex8,
             connectivity: &[9; 8],
         }],
         point_data: vec![],

@@ -1,10 +1,9 @@
 //! Pictures: what must be in them. How they look is for eyes: they stay in the folder of the test.
 
+use fe_core::CellKind;
 use nalgebra::Vector3;
 use scenarios::catalog;
-use scenarios::output::{
-    Array, CellShape, Cells, Energies, Force, Frame, Results, Row, Summary, Values,
-};
+use scenarios::output::{Array, Cells, Energies, Force, Frame, Results, Row, Summary, Values};
 
 use crate::fresh_folder;
 
@@ -122,7 +121,7 @@ fn every_asked_picture_is_drawn() {
                 time: t,
                 points: &points,
                 cells: vec![Cells {
-                    shape: CellShape::Hex8,
+                    kind: CellKind::Hex8,
                     connectivity: &cells,
                 }],
                 point_data: vec![Array {
@@ -189,7 +188,7 @@ fn a_frame_without_cells_or_stress_is_drawn_too() {
         time: 1e-7,
         points: &points,
         cells: vec![Cells {
-            shape: CellShape::Tet4,
+            kind: CellKind::Tet4,
             connectivity: &[0, 1, 2, 3],
         }],
         point_data: vec![],

@@ -2,9 +2,10 @@
 
 mod refusals;
 
+use fe_core::CellKind;
 use nalgebra::Vector3;
 use scenarios::build::build;
-use scenarios::output::{Array, CellShape, Cells, Frame, History, Status, Values, deformed_svg};
+use scenarios::output::{Array, Cells, Frame, History, Status, Values, deformed_svg};
 use scenarios::spec::{LoadedScene, SceneError, Symmetry, parse};
 
 use crate::fresh_folder;
@@ -230,11 +231,11 @@ fn a_plane_picture_is_flat_and_to_scale() {
         points: &points,
         cells: vec![
             Cells {
-                shape: CellShape::Tri3,
+                kind: CellKind::Tri3,
                 connectivity: &[0, 1, 2, 0, 2, 3],
             },
             Cells {
-                shape: CellShape::Quad4,
+                kind: CellKind::Quad4,
                 connectivity: &[4, 5, 6, 7],
             },
         ],

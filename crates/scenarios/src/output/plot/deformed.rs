@@ -39,7 +39,7 @@ fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
     let stress = nodal_stress(frame);
     let faces = boundary(frame);
     let points = deformed_points(frame);
-    let plane = frame.cells.iter().all(|cells| cells.shape.is_plane());
+    let plane = frame.cells.iter().all(|cells| cells.kind.dim() == 2);
     let view = View::new(plane);
     let on_surface = faces
         .iter()
@@ -95,7 +95,7 @@ fn nodal_stress(frame: &Frame<'_>) -> Option<Vec<f64>> {
     let mut sums = vec![(0.0, 0_usize); frame.points.len()];
     let mut values = cell_values.iter();
     for cells in &frame.cells {
-        for nodes in cells.connectivity.chunks_exact(cells.shape.node_count()) {
+        for nodes in cells.connectivity.chunks_exact(cells.kind.node_count()) {
             let value = values.next()?;
             for node in nodes {
                 let (sum, count) = &mut sums[*node as usize];
@@ -115,8 +115,9 @@ fn nodal_stress(frame: &Frame<'_>) -> Option<Vec<f64>> {
 fn boundary(frame: &Frame<'_>) -> Vec<Vec<usize>> {
     let mut faces: BTreeMap<Vec<usize>, Option<Vec<usize>>> = BTreeMap::new();
     for cells in &frame.cells {
-        for nodes in cells.connectivity.chunks_exact(cells.shape.node_count()) {
-            for local in cells.shape.faces() {
+        let of_a_cell = cells.faces();
+        for nodes in cells.connectivity.chunks_exact(cells.kind.node_count()) {
+            for local in &of_a_cell {
                 let face: Vec<usize> = local.iter().map(|i| nodes[*i] as usize).collect();
                 let mut key = face.clone();
                 key.sort_unstable();
