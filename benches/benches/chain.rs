@@ -143,7 +143,7 @@ fn contact(c: &mut Criterion) {
 /// A step of `impact` in full contact, with the factors that the steps before have left.
 fn step(c: &mut Criterion) {
     let loaded = scenarios::catalog::load("impact", &[]).unwrap();
-    let built = scenarios::build::build(&loaded).unwrap();
+    let built = scenarios::build(&loaded).unwrap();
     let mut stepper = Stepper::new(&built.model, Box::new(NoClock)).unwrap();
     let mut state = stepper.initial_state(built.velocity.clone()).unwrap();
     for _ in 0..35 {

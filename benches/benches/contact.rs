@@ -184,7 +184,7 @@ fn starts(
 fn press_twist() -> (ContactProblem, ContactProblem) {
     let coarse = "cells=(10, 10, 3)".parse().unwrap();
     let loaded = scenarios::catalog::load("press-twist", &[coarse]).unwrap();
-    let built = scenarios::build::build(&loaded).unwrap();
+    let built = scenarios::build(&loaded).unwrap();
     let mut stepper = Stepper::new(&built.model, Box::new(NoClock)).unwrap();
     let mut state = stepper.initial_state(built.velocity.clone()).unwrap();
     let mut advance = |steps| {

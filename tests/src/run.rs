@@ -4,13 +4,13 @@ use std::collections::VecDeque;
 use std::sync::{Mutex, PoisonError};
 
 use nscd::{Observer, State, StepReport, Stepper, Totals, march};
-use scenarios::build::{Built, build};
+use scenarios::Stopwatch;
 use scenarios::catalog;
-use scenarios::clock::Stopwatch;
 use scenarios::output::{History, Status, Summary};
-use scenarios::row::{first_row, row};
-use scenarios::run::summarise;
 use scenarios::spec::{Layout, LoadedScene, Override, Scene, parse};
+use scenarios::summarise;
+use scenarios::{Built, build};
+use scenarios::{first_row, row};
 
 /// Runs at a time of [`compute_all`].
 const AT_A_TIME: usize = 2;

@@ -10,13 +10,13 @@ use std::error::Error;
 
 use indexmap::IndexMap;
 use nscd::{NoClock, Observer, State, StepReport, Stepper, Totals, march};
-use scenarios::build::{Built, build};
 use scenarios::output::Row;
-use scenarios::row::{first_row, row};
 use scenarios::spec::{
     Body, ContactLevel, Interface, Law, LoadedScene, Master, Material, Mesh, Output, Probe,
     Quantity, RectangleMesh, Scene, Time,
 };
+use scenarios::{Built, build};
+use scenarios::{first_row, row};
 
 /// Steps between two printed lines.
 const EVERY: usize = 20;

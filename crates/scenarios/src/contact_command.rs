@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
 use contact_bipotential::{ContactProblem, Method, Outcome, SolveSettings, solve};
-use scenarios::clock::Stopwatch;
+use scenarios::Stopwatch;
 use scenarios::fclib;
 use scenarios::report;
 use serde::Serialize;

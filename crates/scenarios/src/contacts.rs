@@ -82,7 +82,7 @@ impl NodeContact {
 }
 
 /// The bonds of every interface with adhesion, in the order of the model.
-pub fn bonds(model: &Model, state: &State) -> Vec<Bonds> {
+pub(crate) fn bonds(model: &Model, state: &State) -> Vec<Bonds> {
     let interfaces = model.interfaces.iter().zip(&state.bonds);
     let adhesive = interfaces.filter_map(|(interface, bonds)| {
         let law = interface.adhesion.as_ref()?;

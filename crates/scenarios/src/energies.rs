@@ -51,7 +51,7 @@ impl EnergyTerm {
     }
 
     /// True for what the bodies and bonds hold, false for what came or went.
-    pub fn is_stored(&self) -> bool {
+    pub(crate) fn is_stored(&self) -> bool {
         self.column.starts_with("energy.")
     }
 }

@@ -13,9 +13,9 @@ use contact_bipotential::{ContactError, ContactProblem};
 use thiserror::Error;
 
 /// Largest file that is read \[bytes\].
-pub const LARGEST_FILE: u64 = 1 << 30;
+pub(crate) const LARGEST_FILE: u64 = 1 << 30;
 /// Largest number of unknowns that a file may announce.
-pub const LARGEST_SIZE: usize = 1 << 24;
+pub(crate) const LARGEST_SIZE: usize = 1 << 24;
 
 /// A problem file that cannot be used.
 #[derive(Debug, Error)]

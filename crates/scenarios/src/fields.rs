@@ -102,7 +102,7 @@ impl Fields {
     }
 
     /// Von Mises stress at a node \[Pa\]: mean over the elements around it.
-    pub fn nodal_von_mises(built: &Built, state: &State, node: u32) -> f64 {
+    pub(crate) fn nodal_von_mises(built: &Built, state: &State, node: u32) -> f64 {
         let blocks = built.model.solid.blocks().iter();
         let cells = blocks.flat_map(|b| b.connectivity().chunks_exact(b.nodes_per_element()));
         let stress = stresses(built, state);

@@ -3,20 +3,30 @@
 //! A scene is a RON text ([`spec`]), built in ([`catalog`]) or a file. The results of a run go into one folder
 //! ([`output`]); [`report`] prints them. The program `setae` is a thin shell around this library.
 
-pub mod build;
 pub mod catalog;
-pub mod clock;
-pub mod contacts;
-mod energies;
 pub mod fclib;
-pub mod fields;
 pub mod output;
-pub mod progress;
 pub mod report;
-pub mod row;
-pub mod run;
 pub mod spec;
-pub mod sweep;
+
+mod build;
+mod clock;
+mod contacts;
+mod energies;
+mod fields;
+mod progress;
+mod row;
+mod run;
+mod sweep;
+
+pub use build::{Built, build};
+pub use clock::Stopwatch;
+pub use contacts::NodeContact;
+pub use fields::Fields;
+pub use progress::Progress;
+pub use row::{first_row, row};
+pub use run::{Options, RunError, run, run_with, summarise};
+pub use sweep::{Outcome, Planned, Sweep, SweepError, Vary};
 
 /// The example of the README compiles and runs.
 #[cfg(doctest)]

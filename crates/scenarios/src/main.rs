@@ -12,12 +12,12 @@ use std::sync::atomic::AtomicBool;
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use miette::{GraphicalReportHandler, GraphicalTheme};
+use scenarios::Progress;
 use scenarios::catalog;
 use scenarios::output::Status;
-use scenarios::progress::Progress;
 use scenarios::report;
-use scenarios::run::{Options, RunError};
 use scenarios::spec::{Override, SceneError};
+use scenarios::{Options, RunError};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_shutdown};
 
@@ -229,7 +229,7 @@ fn show(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
 fn check(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
     let loaded = catalog::load(scene, sets)?;
     if loaded.scene.size().dofs <= LARGEST_BUILT {
-        scenarios::build::build(&loaded)?;
+        scenarios::build(&loaded)?;
     }
     say(&report::description(&loaded.source.name, &loaded.scene));
     Ok(ExitCode::SUCCESS)
@@ -257,7 +257,7 @@ fn run(
         dump,
         stop: Some(&stop),
     };
-    let outcome = scenarios::run::run_with(&loaded, &folder, &options, watch);
+    let outcome = scenarios::run_with(&loaded, &folder, &options, watch);
     bar.finish_and_clear();
     let summary = outcome.map_err(|error| match error {
         RunError::Scene(error) => Failure::Scene(error),

@@ -19,15 +19,14 @@ mod results;
 mod summary;
 mod vtu;
 
-pub use self::csv::HistoryFile;
+use self::csv::HistoryFile;
 pub use crate::energies::{ENERGY_TERMS, Energies, EnergyTerm};
 pub use folder::{Folder, OutputError};
 pub use frame::{Array, Cells, Frame, Values};
 pub use history::{Bonds, Force, History, Row};
-pub use plot::{
-    Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, energy_svg, maps_svg,
-    series_svg,
-};
+pub use plot::{Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, maps_svg};
+use plot::{energy_svg, series_svg};
 pub use results::Results;
 pub use summary::{EnergySummary, Status, Summary};
-pub use vtu::{vtu_bytes, write_pvd};
+pub use vtu::vtu_bytes;
+use vtu::write_pvd;

@@ -33,7 +33,7 @@ pub use locate::{Node, NodeKind, ScanError, SpanTree};
 pub use material::{BuiltLaw, Law, LawError, Material};
 pub use mesh::{Mesh, MeshSize, PlaneGrid, SolidGrid};
 pub use motion::{Load, Motion, Prescribed, Rotation, Table};
-pub use near::near_names;
+pub(crate) use near::near_names;
 pub use overrides::Override;
 pub use paths::field_paths;
 pub use request::{FieldsEvery, Output, Plot, Probe, Quantity};

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use scenarios::catalog;
 use scenarios::spec::Override;
-use scenarios::sweep::{Outcome, Sweep, SweepError, Vary};
+use scenarios::{Outcome, Sweep, SweepError, Vary};
 
 use crate::{Failure, STOPPED, interruption, say};
 

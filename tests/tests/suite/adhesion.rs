@@ -29,7 +29,7 @@ fn law() -> Adhesion {
 
 fn pulled(law: Adhesion, sets: &[&str]) -> Run {
     let loaded = scene_text(PULL, sets);
-    let mut built = scenarios::build::build(&loaded).unwrap();
+    let mut built = scenarios::build(&loaded).unwrap();
     built.model.interfaces[0].adhesion = Some(law);
     let run = try_run_built(built);
     assert!(run.end.is_ok(), "{:?}", run.end);
@@ -184,7 +184,7 @@ fn an_interface_that_snaps_is_cut_and_then_stops_with_that_reason() {
         ..law()
     };
     let loaded = scene_text(PULL, &soft);
-    let mut built = scenarios::build::build(&loaded).unwrap();
+    let mut built = scenarios::build(&loaded).unwrap();
     built.model.interfaces[0].adhesion = Some(snapping);
     let run = try_run_built(built);
     let reason = format!("{}", run.end.as_ref().unwrap_err());
@@ -247,7 +247,7 @@ fn a_bond_that_turns_with_its_bodies_notices_nothing() {
     let text = TURN
         .replace("TX", &path(&|a| -0.004 * a.sin()))
         .replace("TY", &path(&|a| 0.004 * a.cos()));
-    let mut built = scenarios::build::build(&scene_text(&text, &[])).unwrap();
+    let mut built = scenarios::build(&scene_text(&text, &[])).unwrap();
     built.model.interfaces[0].adhesion = Some(Adhesion {
         initial: 1.0,
         ..law()

@@ -3,8 +3,8 @@
 use nscd::{
     Counters, NoClock, NscdError, Observer, Rejection, State, StepReport, Stepper, Totals, march,
 };
-use scenarios::build::{Built, build};
 use scenarios::spec::{LoadedScene, Override, parse};
+use scenarios::{Built, build};
 
 /// A built-in scene with changed values.
 pub(crate) fn scene(name: &str, sets: &[&str]) -> LoadedScene {

@@ -28,7 +28,7 @@ impl Drop for Folder {
 /// A run into the folder `out` as the program makes it. (The program itself, its messages and exit codes are tested
 /// where it is built, in the package `scenarios`.)
 fn run_into(loaded: &LoadedScene, folder: &Folder) -> Summary {
-    scenarios::run::run(loaded, &folder.0.join("out"), &mut |_| ()).unwrap()
+    scenarios::run(loaded, &folder.0.join("out"), &mut |_| ()).unwrap()
 }
 
 fn summary(folder: &Folder) -> serde_json::Value {

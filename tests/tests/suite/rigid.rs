@@ -2,7 +2,7 @@
 
 use fe_core::{Solid, solid_block};
 use hyperelastic::{ElasticConstants, SaintVenantKirchhoff};
-use scenarios::build::build;
+use scenarios::build;
 
 use crate::common::{Run, run, scene, scene_text, try_run_built};
 

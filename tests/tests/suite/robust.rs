@@ -1,7 +1,7 @@
 //! Scenes at the edge of what the program takes, most of them found by the stress runs.
 
 use nscd::{NoClock, NscdError, Side, State, StepFailure, Stepper};
-use scenarios::build::build;
+use scenarios::build;
 use scenarios::spec::LoadedScene;
 
 use crate::common::{run, scene, scene_text, try_run};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use nscd::State;
-use scenarios::fields::Fields;
+use scenarios::Fields;
 use scenarios::output::{Axis, Chart, Curve, Values, charts_svg};
 
 use super::Figure;

@@ -2,7 +2,7 @@
 
 use ::tests::Ran;
 use nscd::State;
-use scenarios::fields::Fields;
+use scenarios::Fields;
 
 /// Largest value and where it is.
 pub(super) fn peak(x: &[f64], y: &[f64]) -> (f64, f64) {

@@ -2,7 +2,7 @@
 
 use fe_core::CellKind;
 use nscd::State;
-use scenarios::fields::Fields;
+use scenarios::Fields;
 use scenarios::output::{Array, Axis, Cells, Chart, Curve, Frame, Values, deformed_svg};
 use tests::compute_all;
 pub(super) use tests::{Plan as Planned, Ran};

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use nscd::State;
-use scenarios::contacts::NodeContact;
+use scenarios::NodeContact;
 use scenarios::output::{MapFrame, Maps, maps_svg};
 
 use super::Figure;

@@ -7,8 +7,8 @@ use std::sync::mpsc;
 use std::time::Duration;
 
 use nscd::{NoClock, NscdError, StepFailure, Stepper, Totals, march};
-use scenarios::build::build;
-use scenarios::clock::Stopwatch;
+use scenarios::Stopwatch;
+use scenarios::build;
 use scenarios::spec::parse;
 
 use super::audit::{Auditor, Worst};

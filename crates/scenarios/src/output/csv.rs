@@ -8,7 +8,7 @@ use super::{Folder, OutputError};
 
 /// An open `history.csv`; each row is on disk when [`HistoryFile::push`] returns.
 #[derive(Debug)]
-pub struct HistoryFile {
+pub(super) struct HistoryFile {
     path: PathBuf,
     writer: csv::Writer<File>,
 }
@@ -18,7 +18,7 @@ impl HistoryFile {
     ///
     /// # Errors
     /// [`OutputError::File`].
-    pub fn create(folder: &Folder, header: &[String]) -> Result<HistoryFile, OutputError> {
+    pub(super) fn create(folder: &Folder, header: &[String]) -> Result<HistoryFile, OutputError> {
         let path = folder.file("history.csv");
         let file = File::create(&path).map_err(|source| OutputError::File {
             path: path.clone(),
@@ -36,7 +36,7 @@ impl HistoryFile {
     ///
     /// # Errors
     /// [`OutputError::File`].
-    pub fn push(&mut self, numbers: &[f64]) -> Result<(), OutputError> {
+    pub(super) fn push(&mut self, numbers: &[f64]) -> Result<(), OutputError> {
         let texts: Vec<String> = numbers.iter().map(|number| format!("{number:?}")).collect();
         self.record(&texts)
     }

@@ -102,12 +102,12 @@ impl Values<'_> {
 
 impl<'a> Frame<'a> {
     /// Number of cells of all shapes.
-    pub fn cell_count(&self) -> usize {
+    pub(crate) fn cell_count(&self) -> usize {
         self.cells.iter().map(Cells::count).sum()
     }
 
     /// A vector field at the points.
-    pub fn point_vector(&self, name: &str) -> Option<&'a [f64]> {
+    pub(crate) fn point_vector(&self, name: &str) -> Option<&'a [f64]> {
         self.point_data
             .iter()
             .find(|array| array.name == name)

@@ -28,7 +28,7 @@ const LEGEND: u32 = 190;
 ///
 /// # Errors
 /// What the drawing library reports.
-pub fn energy_svg(title: &str, history: &History) -> Result<String, String> {
+pub(super) fn energy_svg(title: &str, history: &History) -> Result<String, String> {
     let time = history.column("t").unwrap_or_default();
     let mut total = vec![0.0; time.len()];
     let mut curves = Vec::new();
@@ -67,7 +67,7 @@ fn spoken(column: &str) -> String {
 ///
 /// # Errors
 /// What the drawing library reports.
-pub fn series_svg(
+pub(super) fn series_svg(
     title: &str,
     label: &str,
     history: &History,

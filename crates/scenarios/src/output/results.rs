@@ -124,7 +124,7 @@ impl Results {
     ///
     /// # Errors
     /// [`OutputError`].
-    pub fn contact_problem(
+    pub(crate) fn contact_problem(
         &self,
         step: usize,
         problem: &ContactProblem,

@@ -94,7 +94,7 @@ impl EnergySummary {
 
     /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was
     /// stored during the run \[J\].
-    pub fn integration_share(&self, largest: f64) -> f64 {
+    pub(crate) fn integration_share(&self, largest: f64) -> f64 {
         let scale = largest
             .max(self.initial.abs())
             .max(self.end.abs())

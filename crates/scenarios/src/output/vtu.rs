@@ -58,7 +58,7 @@ pub fn vtu_bytes(frame: &Frame<'_>) -> io::Result<Vec<u8>> {
 }
 
 /// A `.pvd` collection: `(time \[s\], file relative to the collection)`.
-pub fn write_pvd(files: &[(f64, String)]) -> String {
+pub(super) fn write_pvd(files: &[(f64, String)]) -> String {
     let mut xml = String::from(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );

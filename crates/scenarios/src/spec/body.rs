@@ -26,7 +26,7 @@ pub struct Body {
 
 impl Body {
     /// Initial velocity \[m/s\] of its node at `point` \[m\].
-    pub fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
         let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
         std::array::from_fn(|c| self.velocity[c] + turn((c + 1) % 3, (c + 2) % 3))
     }

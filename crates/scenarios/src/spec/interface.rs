@@ -144,10 +144,3 @@ pub enum Master {
         radius: f64,
     },
 }
-
-impl Master {
-    /// True for a shape that does not deform.
-    pub fn is_rigid(&self) -> bool {
-        !matches!(self, Master::Facets(_))
-    }
-}

@@ -115,7 +115,7 @@ impl SpanTree {
     }
 
     /// Names that stand twice in one map or struct: dotted path and bytes of the second.
-    pub fn duplicates(&self) -> Vec<(String, Range<usize>)> {
+    pub(super) fn duplicates(&self) -> Vec<(String, Range<usize>)> {
         let mut found = Vec::new();
         self.root.duplicates("", &mut found);
         found

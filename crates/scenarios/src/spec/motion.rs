@@ -30,18 +30,10 @@ impl Table {
     }
 
     /// Interpolation; linear for a constant.
-    pub fn interpolation(&self) -> Interpolation {
+    pub(crate) fn interpolation(&self) -> Interpolation {
         match self {
             Table::Constant(_) => Interpolation::Linear,
             Table::Points(interpolation, _) => *interpolation,
-        }
-    }
-
-    /// True when the value never changes.
-    pub fn is_constant(&self) -> bool {
-        match self {
-            Table::Constant(_) => true,
-            Table::Points(_, points) => points.windows(2).all(|w| w[0].1 == w[1].1),
         }
     }
 }
@@ -116,7 +108,7 @@ fn all_components() -> String {
 
 impl Prescribed {
     /// Which of x, y, z are prescribed.
-    pub fn mask(&self) -> [bool; 3] {
+    pub(crate) fn mask(&self) -> [bool; 3] {
         ['x', 'y', 'z'].map(|c| self.components.contains(c))
     }
 }

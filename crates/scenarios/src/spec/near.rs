@@ -1,7 +1,10 @@
 //! Names that look alike.
 
 /// Names that look like `asked`, the nearest first; names further than about a third of the letters are left out.
-pub fn near_names<'a>(asked: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
+pub(crate) fn near_names<'a>(
+    asked: &str,
+    names: impl IntoIterator<Item = &'a str>,
+) -> Vec<&'a str> {
     let limit = 1 + asked.chars().count() / 3;
     let mut near: Vec<(usize, &str)> = names
         .into_iter()

@@ -1,7 +1,7 @@
 //! Adhesion in a scene: what it means, what is refused.
 
 use contact_bipotential::rcc;
-use scenarios::build::build;
+use scenarios::build;
 use scenarios::output::{History, Status};
 use scenarios::spec::{Adhesion, Healing, Reference, Update, parse};
 
@@ -227,7 +227,7 @@ const PULLED: &str = r#"(
 fn bonds_are_written_to_history_fields_and_pictures() {
     let folder = fresh_folder("adhesion");
     let loaded = parse("pulled.ron", PULLED, &[]).unwrap();
-    let summary = scenarios::run::run(&loaded, &folder, &mut |_| ()).unwrap();
+    let summary = scenarios::run(&loaded, &folder, &mut |_| ()).unwrap();
     assert_eq!(summary.status, Status::Completed, "{:?}", summary.reason);
     let history = History::read(&folder.join("history.csv")).unwrap();
     let column = |name: &str| history.column(name).unwrap_or_else(|| panic!("{name}"));

@@ -1,9 +1,9 @@
 //! The choice of the dilatation: schema, warning, refusal, and a run whose audit closes.
 
-use scenarios::build::build;
+use scenarios::build;
 use scenarios::output::{History, Status};
 use scenarios::report::description;
-use scenarios::run::run;
+use scenarios::run;
 use scenarios::spec::{Dilatation, LoadedScene, parse};
 
 use crate::fresh_folder;

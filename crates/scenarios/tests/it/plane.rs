@@ -4,7 +4,7 @@ mod refusals;
 
 use fe_core::CellKind;
 use nalgebra::Vector3;
-use scenarios::build::build;
+use scenarios::build;
 use scenarios::output::{Array, Cells, Frame, History, Status, Values, deformed_svg};
 use scenarios::spec::{LoadedScene, SceneError, Symmetry, parse};
 
@@ -151,7 +151,7 @@ fn a_plane_run_writes_history_fields_and_pictures() {
     )"#;
     let folder = fresh_folder("falling-square");
     let loaded = parse("falling.ron", text, &[]).unwrap();
-    let summary = scenarios::run::run(&loaded, &folder, &mut |_| ()).unwrap();
+    let summary = scenarios::run(&loaded, &folder, &mut |_| ()).unwrap();
     assert_eq!(summary.status, Status::Completed, "{:?}", summary.reason);
     assert_eq!((summary.dofs, summary.elements), (32, 9));
     // Half of m v^2 with m = 1000 kg.

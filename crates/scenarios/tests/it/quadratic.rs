@@ -1,10 +1,10 @@
 //! Quadratic cells in scenes, files and pictures.
 
 use nscd::{NoClock, Stepper};
-use scenarios::build::{Built, build};
-use scenarios::fields::Fields;
+use scenarios::Fields;
 use scenarios::output::{deformed_svg, vtu_bytes};
 use scenarios::spec::{LoadedScene, SceneError, parse};
+use scenarios::{Built, build};
 
 use crate::vtu_reader::Vtu;
 
