@@ -12,7 +12,7 @@ mod vector;
 
 pub use contact::{Contact, ContactKey, Stencil};
 pub use detect::{DetectionCounters, Detector};
-pub use error::GeometryError;
+pub use error::{GeometryError, InterfaceFault};
 pub use facet::{FacetPlace, FacetPoint, closest_point};
 pub use interface::{Interface, Master, RIM_ROUND_OFF};
 pub use kinematics::{CompliancePart, ContactMap, FrameRule};

@@ -27,8 +27,8 @@ pub use error::{ContactError, ParameterError};
 #[cfg(feature = "geometry")]
 pub use geometry::{
     CompliancePart, Contact, ContactKey, ContactMap, DetectionCounters, Detector, FacetPlace,
-    FacetPoint, FrameRule, GeometryError, Interface, Master, Obstacle, PlacedObstacle,
-    RIM_ROUND_OFF, Shape, Stencil, SurfacePoint, closest_point, material_frame,
+    FacetPoint, FrameRule, GeometryError, Interface, InterfaceFault, Master, Obstacle,
+    PlacedObstacle, RIM_ROUND_OFF, Shape, Stencil, SurfacePoint, closest_point, material_frame,
 };
 pub use global::{GlobalProblem, SparseEntries};
 pub use law::{ContactDiagnostic, Status};

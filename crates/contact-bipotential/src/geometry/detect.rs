@@ -26,6 +26,7 @@ const GRAIN: usize = 64;
 
 /// What the search has done since it was made: proof of what was skipped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct DetectionCounters {
     /// Searches that ended with the box test: no slave node near the master.
     pub box_rejections: u64,
@@ -120,6 +121,7 @@ impl Detector {
     /// A deformable master that ends on the axis is continued by its mirror image. Without that, a node over the
     /// pole of a dome would overhang the end of the last facet, which slopes. `reference` are the positions \[m\]
     /// given to [`new`](Self::new); problems with 3 unknowns a node stay as they are.
+    #[must_use]
     pub fn axisymmetric(mut self, reference: &[f64]) -> Self {
         if self.dim == 2 {
             for (interface, search) in self.interfaces.iter().zip(&mut self.searches) {

@@ -22,6 +22,7 @@ pub enum FacetPlace {
 
 /// A point of a facet.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FacetPoint {
     /// Local coordinates `(xi, eta)` in the unit square (quadrilateral) or unit triangle \[-\]; `(xi, 0)` on a line.
     pub coordinates: [f64; 2],

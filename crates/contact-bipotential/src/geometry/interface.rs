@@ -2,7 +2,8 @@
 
 use fe_core::Surface;
 
-use crate::geometry::error::GeometryError;
+use crate::error::ParameterError;
+use crate::geometry::error::{GeometryError, InterfaceFault};
 use crate::geometry::obstacle::Obstacle;
 use crate::rcc::Adhesion;
 
@@ -108,43 +109,37 @@ impl Interface {
     /// # Errors
     /// [`GeometryError`] that names the interface and the bound.
     pub fn validate(&self, nodes: usize, dim: usize) -> Result<(), GeometryError> {
-        let refuse = |reason: String| {
-            Err(GeometryError::Interface {
-                interface: self.name.clone(),
-                reason,
-            })
-        };
-        if self.slave.is_empty() {
-            return refuse("it has no slave nodes; name a node set that is not empty".to_owned());
-        }
-        if self.area.len() != self.slave.len() {
-            return refuse(format!(
-                "{} areas for {} slave nodes; give one area a node",
-                self.area.len(),
-                self.slave.len()
-            ));
-        }
-        if let Some(node) = self.slave.iter().find(|n| **n as usize >= nodes) {
-            return refuse(format!(
-                "slave node {node} does not exist: the mesh has {nodes} nodes"
-            ));
-        }
-        if let Some(area) = self.area.iter().find(|a| !(**a >= 0.0 && a.is_finite())) {
-            return refuse(format!(
-                "a tributary area is {area} m^2; it must be >= 0 and finite"
-            ));
-        }
-        self.validate_parameters()?;
-        match &self.master {
-            Master::Obstacle(obstacle) if dim == 2 => {
-                obstacle.out_of_plane().map_or(Ok(()), refuse)
+        let fault = self.validate_slaves(nodes).and_then(|()| {
+            self.validate_parameters()?;
+            match &self.master {
+                Master::Obstacle(obstacle) if dim == 2 => obstacle.validate_in_plane(),
+                Master::Obstacle(_) => Ok(()),
+                Master::Surface(surface) => self.validate_surface(surface, nodes, dim),
             }
-            Master::Obstacle(_) => Ok(()),
-            Master::Surface(surface) => self.validate_surface(surface, nodes, dim),
+        });
+        fault.map_err(|reason| GeometryError::Interface {
+            interface: self.name.clone(),
+            reason,
+        })
+    }
+
+    fn validate_slaves(&self, nodes: usize) -> Result<(), InterfaceFault> {
+        let (areas, slaves) = (self.area.len(), self.slave.len());
+        if slaves == 0 {
+            return Err(InterfaceFault::NoSlave);
+        }
+        if areas != slaves {
+            return Err(InterfaceFault::Areas { areas, slaves });
+        }
+        validate_nodes("slave", &self.slave, nodes)?;
+        match self.area.iter().find(|a| !(**a >= 0.0 && a.is_finite())) {
+            Some(&area) => Err(InterfaceFault::Area { area }),
+            None => Ok(()),
         }
     }
 
-    fn validate_parameters(&self) -> Result<(), GeometryError> {
+    fn validate_parameters(&self) -> Result<(), ParameterError> {
+        let reach = self.search_distance;
         let bounds = [
             ("mu", self.mu, 0.0, f64::MAX, "must be >= 0 and finite"),
             (
@@ -156,7 +151,7 @@ impl Interface {
             ),
             (
                 "search distance [m]",
-                self.search_distance,
+                reach,
                 f64::MIN_POSITIVE,
                 f64::MAX,
                 "must be > 0 and finite",
@@ -171,20 +166,11 @@ impl Interface {
         ];
         for (name, value, least, most, bound) in bounds {
             if !(value >= least && value <= most) {
-                let reason = format!("{name} is {value}; it {bound}");
-                return Err(GeometryError::Interface {
-                    interface: self.name.clone(),
-                    reason,
-                });
+                return Err(ParameterError { name, value, bound });
             }
         }
-        match self.adhesion.map(Adhesion::validated) {
-            Some(Err(e)) => Err(GeometryError::Interface {
-                interface: self.name.clone(),
-                reason: e.to_string(),
-            }),
-            _ => Ok(()),
-        }
+        self.adhesion
+            .map_or(Ok(()), |law| law.validated().map(|_| ()))
     }
 
     fn validate_surface(
@@ -192,30 +178,22 @@ impl Interface {
         surface: &Surface,
         nodes: usize,
         dim: usize,
-    ) -> Result<(), GeometryError> {
-        let refuse = |reason: String| {
-            Err(GeometryError::Interface {
-                interface: self.name.clone(),
-                reason,
-            })
-        };
+    ) -> Result<(), InterfaceFault> {
         if surface.dim() != dim {
-            return refuse(format!(
-                "its master has {}, but the mesh has {dim} unknowns a node; a plane body has edges, a body in \
-                 space triangles or quadrilaterals",
-                if surface.dim() == 2 { "edges" } else { "faces" }
-            ));
+            let master_dim = surface.dim();
+            return Err(InterfaceFault::Dimension { master_dim, dim });
         }
-        if let Some(node) = surface.nodes.iter().find(|n| **n as usize >= nodes) {
-            return refuse(format!(
-                "master node {node} does not exist: the mesh has {nodes} nodes"
-            ));
-        }
+        validate_nodes("master", &surface.nodes, nodes)?;
         match self.slave.iter().find(|n| surface.index_of(**n).is_some()) {
-            Some(node) => refuse(format!(
-                "node {node} is slave and master at once; split the surface in two"
-            )),
+            Some(&node) => Err(InterfaceFault::Both { node }),
             None => Ok(()),
         }
+    }
+}
+
+fn validate_nodes(side: &'static str, all: &[u32], nodes: usize) -> Result<(), InterfaceFault> {
+    match all.iter().find(|n| **n as usize >= nodes) {
+        Some(&node) => Err(InterfaceFault::Node { side, node, nodes }),
+        None => Ok(()),
     }
 }

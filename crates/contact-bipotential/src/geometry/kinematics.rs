@@ -117,6 +117,7 @@ impl ContactMap {
     }
 
     /// Signed gaps \[m\], one a contact.
+    #[must_use]
     pub fn gaps(&self) -> Vec<f64> {
         self.contacts.iter().map(|contact| contact.gap).collect()
     }
@@ -133,6 +134,7 @@ impl ContactMap {
     }
 
     /// Nodes of all stencils, sorted, without repetition: where `H^T` can push.
+    #[must_use]
     pub fn nodes(&self) -> Vec<u32> {
         let mut nodes: Vec<u32> = self
             .contacts

@@ -4,7 +4,7 @@ use fe_core::{Motion, Rotation};
 use nalgebra::Vector3;
 
 use crate::error::ParameterError;
-use crate::geometry::error::GeometryError;
+use crate::geometry::error::{GeometryError, InterfaceFault};
 use crate::geometry::vector::{reject, unit};
 
 /// A rigid solid; what is outside of it is free space. Lengths in \[m\], at the reference position of the motion.
@@ -196,6 +196,7 @@ impl Shape {
 
 /// The surface point of an obstacle closest to a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SurfacePoint {
     /// Signed distance \[m\], negative inside the solid.
     pub gap: f64,
@@ -354,10 +355,12 @@ impl Obstacle {
         &self.motion
     }
 
-    /// Why the obstacle cannot bound a body in the plane z = 0: its normals or its motion leave the plane. `None` if
-    /// it can.
-    pub(crate) fn out_of_plane(&self) -> Option<String> {
-        let (what, z) = match self.shape {
+    /// Whether the obstacle can bound a body in the plane z = 0.
+    ///
+    /// # Errors
+    /// Where its normals or its motion leave the plane.
+    pub(crate) fn validate_in_plane(&self) -> Result<(), InterfaceFault> {
+        let (part, z) = match self.shape {
             Shape::Plane { normal, .. } => ("z of a plane's normal", normal[2]),
             Shape::Sphere { center, .. } => ("z of a sphere's center [m]", center[2]),
             Shape::Cylinder { axis, .. } => {
@@ -371,17 +374,19 @@ impl Obstacle {
             Shape::Punch { axis, .. } => ("z of a punch's axis", axis[2]),
         };
         if z != 0.0 {
-            return Some(format!("the {what} is {z}; in the plane it must be 0"));
+            return Err(InterfaceFault::ShapeOutOfPlane { part, z });
         }
         let tilts = |r: &Rotation| !r.angle().is_zero() && r.axis()[2].abs() != 1.0;
         let leaves = !self.motion.translation[2].is_zero()
             || self.motion.rotation.as_ref().is_some_and(tilts);
-        leaves.then(|| {
-            "the obstacle's motion leaves the plane; translate along x and y and rotate about z only".to_owned()
-        })
+        if leaves {
+            return Err(InterfaceFault::MotionOutOfPlane);
+        }
+        Ok(())
     }
 
     /// The obstacle at the end of a step from `t0` to `t1` \[s\].
+    #[must_use]
     pub fn over_step(&self, t0: f64, t1: f64) -> PlacedObstacle<'_> {
         let mut placed = PlacedObstacle {
             shape: self.shape.moved(&self.motion, t1),
@@ -421,11 +426,13 @@ impl PlacedObstacle<'_> {
     /// (sphere), or a fixed direction across the axis (cylinder).
     ///
     /// A node that the face of a punch has swept over in this step meets the face, even where the wall is nearer.
+    #[must_use]
     pub fn closest(&self, x: Vector3<f64>, core: f64) -> SurfacePoint {
         self.shape.closest(x, core, self.advance)
     }
 
     /// Displacement \[m\] over the step of the obstacle's material point that ends it at `point` \[m\].
+    #[must_use]
     pub fn displacement(&self, point: Vector3<f64>) -> Vector3<f64> {
         self.motion.map_or_else(Vector3::zeros, |motion| {
             let x = motion.pull_back(point, self.t1);

@@ -325,7 +325,10 @@ fn obstacles_that_leave_the_plane_say_why() {
         axis,
         radius: 0.4,
     };
-    let reason = |shape, motion| Obstacle::new(shape, motion).unwrap().out_of_plane();
+    let reason = |shape, motion| {
+        let fault = Obstacle::new(shape, motion).unwrap().validate_in_plane();
+        fault.err().map(|fault| fault.to_string())
+    };
     let still = Motion::still;
     let accepted = [
         plane(Vector3::new(3.0, 4.0, 0.0)),
