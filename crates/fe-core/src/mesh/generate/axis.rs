@@ -26,7 +26,7 @@ use crate::mesh::text::{Deserialize, Serialize, even};
 #[cfg_attr(
     feature = "serde",
     derive(Serialize, Deserialize),
-    serde(deny_unknown_fields)
+    serde(rename = "Axis", deny_unknown_fields)
 )]
 pub struct GridAxis {
     /// Where the first piece begins \[m\].
@@ -40,7 +40,7 @@ pub struct GridAxis {
 #[cfg_attr(
     feature = "serde",
     derive(Serialize, Deserialize),
-    serde(deny_unknown_fields)
+    serde(rename = "Piece", deny_unknown_fields)
 )]
 pub enum GridPiece {
     /// A given number of cells.
