@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let read = read?;
 
     println!("{} contacts written and read back\n", read.contacts());
-    println!("method             status        iterations  error [-]  scale-free error [-]");
+    println!("method                    status        iterations  error [-]  scale-free error [-]");
     for method in Method::ALL {
         let settings = SolveSettings {
             method,
@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut reactions = vec![0.0; read.q.len()];
         let outcome = solve(&read, &mut reactions, &settings);
         println!(
-            "{:18} {:13} {:10}  {:9.1e}  {:9.1e}",
+            "{:25} {:13} {:10}  {:9.1e}  {:9.1e}",
             method.name(),
             format!("{:?}", outcome.status),
             outcome.iterations,
