@@ -10,13 +10,12 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use contact_bipotential::conformance::half_space;
-use contact_bipotential::solve::single::SingleContact;
-use contact_bipotential::{Method, SolveSettings, solve};
+use contact_bipotential::{Method, SingleContact, SolveSettings, solve};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fe_core::block::tangent_len;
 use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, ThreeE};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use nscd::{NoClock, Stepper};
 
 fn mesh() -> (Mesh, Vec<f64>) {
@@ -101,12 +100,13 @@ fn assembly(c: &mut Criterion) {
 }
 
 fn single(c: &mut Criterion) {
-    let contact = SingleContact::<3>::new(&[[2.0, 0.1, 0.2], [0.1, 1.5, -0.1], [0.2, -0.1, 1.0]]);
+    let contact = SingleContact::new(&Matrix3::new(2.0, 0.1, 0.2, 0.1, 1.5, -0.1, 0.2, -0.1, 1.0));
     for (status, q) in [
         ("separate", [0.3, 0.1, 0.5]),
         ("stick", [0.01, 0.02, -1.0]),
         ("slip", [2.0, -1.0, -0.5]),
     ] {
+        let q = Vector3::from(q);
         c.bench_function(&format!("single contact/{status}"), |b| {
             b.iter(|| contact.solve(black_box(&q), 0.4))
         });
@@ -125,11 +125,9 @@ fn contact(c: &mut Criterion) {
             ("solve", Method::Auto, 20_000),
         ];
         for (name, method, max_iterations) in runs {
-            let settings = SolveSettings {
-                method,
-                max_iterations,
-                ..SolveSettings::default()
-            };
+            let settings = SolveSettings::default()
+                .with_method(method)
+                .with_max_iterations(max_iterations);
             group.bench_function(BenchmarkId::new(name, problem.contacts()), |b| {
                 b.iter(|| {
                     let mut r = Vec::new();

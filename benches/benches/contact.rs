@@ -10,16 +10,19 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use contact_bipotential::conformance::{brick_wall, half_space};
-use contact_bipotential::solve::single::{SingleContact, solve_single};
-use contact_bipotential::{ContactProblem, Method, SequenceSolver, SolveSettings, Status, solve};
+use contact_bipotential::{
+    ContactProblem, Method, SequenceSolver, SingleContact, SolveSettings, Status, solve,
+    solve_single,
+};
 use criterion::measurement::WallTime;
 use criterion::{
     BatchSize, BenchmarkGroup, BenchmarkId, Criterion, Throughput, criterion_group, criterion_main,
 };
+use nalgebra::{Matrix3, Vector3};
 use nscd::{NoClock, Stepper};
 
 /// Compliance of the single contact \[-\].
-const W: [[f64; 3]; 3] = [[2.0, 0.1, 0.2], [0.1, 1.5, -0.1], [0.2, -0.1, 1.0]];
+const W: Matrix3<f64> = Matrix3::new(2.0, 0.1, 0.2, 0.1, 1.5, -0.1, 0.2, -0.1, 1.0);
 const MU: f64 = 0.4;
 /// Sweeps of one measurement of the cost of a sweep: enough to hide what comes before and after.
 const SWEEPS: usize = 50;
@@ -35,10 +38,7 @@ fn wall(rows: usize, columns: usize) -> ContactProblem {
 }
 
 fn with(method: Method) -> SolveSettings {
-    SolveSettings {
-        method,
-        ..SolveSettings::default()
-    }
+    SolveSettings::default().with_method(method)
 }
 
 fn group<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
@@ -51,13 +51,14 @@ fn group<'a>(c: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, WallTime> {
 }
 
 fn single(c: &mut Criterion) {
-    let contact = SingleContact::<3>::new(&W);
+    let contact = SingleContact::new(&W);
     let mut group = c.benchmark_group("single");
     for (status, b) in [
         (Status::Separate, [0.3, 0.1, 0.5]),
         (Status::Stick, [0.01, 0.02, -1.0]),
         (Status::Slip, [2.0, -1.0, -0.5]),
     ] {
+        let b = Vector3::from(b);
         assert_eq!(contact.solve(&b, MU).status, status);
         group.bench_function(BenchmarkId::new("prepared", format!("{status:?}")), |t| {
             t.iter(|| contact.solve(black_box(&b), MU));
@@ -67,8 +68,8 @@ fn single(c: &mut Criterion) {
         });
     }
     // Of one contact the processor soon knows the branches; of many in no order it does not.
-    let many: Vec<[f64; 3]> = (0..4096)
-        .map(|k| [1.0, 2.3, 3.7].map(|f| (f64::from(k) * f + f).sin()))
+    let many: Vec<Vector3<f64>> = (0..4096)
+        .map(|k| Vector3::new(1.0, 2.3, 3.7).map(|f| (f64::from(k) * f + f).sin()))
         .collect();
     group.throughput(Throughput::Elements(many.len() as u64));
     group.bench_function("prepared/mixed", |t| {
@@ -95,11 +96,7 @@ fn sweep(c: &mut Criterion) {
             Method::GaussSeidelBipotential,
             Method::JoliFeng,
         ] {
-            let settings = SolveSettings {
-                tolerance: 0.0,
-                max_iterations: SWEEPS,
-                ..with(method)
-            };
+            let settings = with(method).with_tolerance(0.0).with_max_iterations(SWEEPS);
             let sweeps = solve(&problem, &mut Vec::new(), &settings).work.sweeps;
             group.throughput(Throughput::Elements((sweeps * problem.contacts()) as u64));
             let id = format!("{name}/{}", method.name());

@@ -4,10 +4,16 @@
 //! velocities `u + mu |u_t| n`. Contact and friction together say `r in K`, `u + mu |u_t| n in K*`, orthogonal
 //! \[deSaxce1998\]: one equation, `r = Proj_K(r - rho (u + mu |u_t| n))` for any `rho > 0` [Hu2022, eq. 31].
 
-use crate::error::ContactError;
-use crate::local::{Vector, dot, tangential_norm};
+use std::ops::Range;
 
-/// How many components a contact has.
+use nalgebra::Vector3;
+
+use crate::error::ContactError;
+use crate::local::{Vector, local_axes, tangential_norm};
+
+/// How many components a contact has, and where they stand in flat vectors.
+///
+/// A flat vector holds [`dim`](Self::dim) entries a contact, contact after contact, normal last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cone {
     /// Normal component only: `(n)`.
@@ -21,7 +27,8 @@ pub enum Cone {
 impl Cone {
     /// Entries a contact.
     #[inline]
-    pub fn dim(self) -> usize {
+    #[must_use]
+    pub const fn dim(self) -> usize {
         match self {
             Cone::Frictionless => 1,
             Cone::Planar => 2,
@@ -41,11 +48,57 @@ impl Cone {
             _ => Err(ContactError::ConeDimension { dim }),
         }
     }
+
+    /// Where the entries of contact `k` stand in a flat vector.
+    #[inline]
+    #[must_use]
+    pub const fn range(self, k: usize) -> Range<usize> {
+        self.dim() * k..self.dim() * (k + 1)
+    }
+
+    /// Where the tangential entries of contact `k` stand in a flat vector.
+    #[inline]
+    #[must_use]
+    pub const fn tangents(self, k: usize) -> Range<usize> {
+        self.dim() * k..self.normal(k)
+    }
+
+    /// Where the normal entry of contact `k` stands in a flat vector.
+    #[inline]
+    #[must_use]
+    pub const fn normal(self, k: usize) -> usize {
+        self.dim() * k + self.dim() - 1
+    }
+
+    /// The contact of an entry of a flat vector.
+    #[inline]
+    #[must_use]
+    pub const fn contact(self, entry: usize) -> usize {
+        entry / self.dim()
+    }
+
+    /// Which of `(t1, t2, n)` the entries of a contact are.
+    #[inline]
+    #[must_use]
+    pub const fn axes(self) -> &'static [usize] {
+        local_axes(self.dim())
+    }
+
+    /// The entries of one contact in `(t1, t2, n)`; tangents that the cone does not have are zero.
+    #[inline]
+    #[must_use]
+    pub fn spatial(self, entries: &[f64]) -> Vector3<f64> {
+        let mut x = Vector3::zeros();
+        for (v, axis) in entries.iter().zip(self.axes()) {
+            x[*axis] = *v;
+        }
+        x
+    }
 }
 
 /// Where a point lies with respect to `K` and its polar cone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Region {
+pub(crate) enum Region {
     /// In the polar cone: projects on the apex.
     Polar,
     /// In `K`: projects on itself.
@@ -56,7 +109,7 @@ pub enum Region {
 
 /// The region of `v`.
 #[inline]
-pub fn region<const D: usize>(mu: f64, v: &Vector<D>) -> Region {
+pub(crate) fn region<const D: usize>(mu: f64, v: &Vector<D>) -> Region {
     let (t, n) = (tangential_norm(v), v[D - 1]);
     // The polar cone first: without friction the axis of the polar cone has `t <= mu n` too.
     if mu * t <= -n {
@@ -72,7 +125,7 @@ pub fn region<const D: usize>(mu: f64, v: &Vector<D>) -> Region {
 #[inline]
 pub fn project<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
     let (t, n) = (tangential_norm(v), v[D - 1]);
-    let mut p = [0.0; D];
+    let mut p = Vector::zeros();
     if mu * t <= -n {
         return p;
     }
@@ -92,15 +145,7 @@ pub fn project<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
 #[inline]
 pub fn project_dual<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
     // Moreau: v = Proj_K*(v) - Proj_K(-v).
-    let mut minus = *v;
-    for x in &mut minus {
-        *x = -*x;
-    }
-    let mut p = project(mu, &minus);
-    for i in 0..D {
-        p[i] += v[i];
-    }
-    p
+    project(mu, &-v) + v
 }
 
 /// The modified velocity `u + mu |u_t| n`.
@@ -117,13 +162,13 @@ pub fn modified_velocity<const D: usize>(mu: f64, u: &Vector<D>) -> Vector<D> {
 /// \[deSaxce1998\]; outside those sets the bi-potential is infinite, so check them too.
 #[inline]
 pub fn bipotential_gap<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
-    dot(&modified_velocity(mu, u), r)
+    modified_velocity(mu, u).dot(r)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::local::difference;
+    use nalgebra::{Vector1, Vector2};
     use proptest::prelude::*;
 
     fn inside<const D: usize>(mu: f64, v: &Vector<D>) -> bool {
@@ -133,23 +178,18 @@ mod tests {
     fn is_projection<const D: usize>(mu: f64, v: &Vector<D>) {
         // Characterisation without the formula: p in K, v - p in the polar cone, orthogonal.
         let p = project(mu, v);
-        let rest = difference(&p, v);
-        let scale = 1.0 + dot(v, v);
+        let rest = p - v;
+        let scale = 1.0 + v.dot(v);
         assert!(inside(mu, &p), "{v:?} {p:?}");
-        assert!(dot(&p, &rest).abs() <= 1e-13 * scale);
+        assert!(p.dot(&rest).abs() <= 1e-13 * scale);
         assert!(rest[D - 1] >= mu * tangential_norm(&rest) - 1e-13 * scale);
         let d = project_dual(mu, v);
         assert!(d[D - 1] >= mu * tangential_norm(&d) - 1e-13 * scale);
         let q = project(mu, &p);
-        for i in 0..D {
-            assert!(
-                (p[i] - q[i]).abs() <= 1e-13 * scale,
-                "projecting twice moves"
-            );
-        }
+        assert!((p - q).amax() <= 1e-13 * scale, "projecting twice moves");
         let expected = match region(mu, v) {
-            Region::Inside => dot(&rest, &rest) == 0.0,
-            Region::Polar => dot(&p, &p) == 0.0,
+            Region::Inside => rest.dot(&rest) == 0.0,
+            Region::Polar => p.dot(&p) == 0.0,
             Region::Surface => (tangential_norm(&p) - mu * p[D - 1]).abs() <= 1e-13 * scale,
         };
         assert!(expected, "{v:?} {p:?}");
@@ -160,33 +200,53 @@ mod tests {
         fn projection_is_characterised_by_moreau(
             mu in prop_oneof![Just(0.0), 0.0..5.0], v in prop::array::uniform3(-10.0..10.0_f64)
         ) {
-            is_projection::<3>(mu, &v);
-            is_projection::<2>(mu, &[v[0], v[1]]);
-            is_projection::<1>(mu, &[v[0]]);
+            is_projection::<3>(mu, &v.into());
+            is_projection::<2>(mu, &Vector2::new(v[0], v[1]));
+            is_projection::<1>(mu, &Vector1::new(v[0]));
         }
 
         #[test]
         fn gap_is_not_negative_and_vanishes_on_the_law(
             mu in 0.0..3.0, a in prop::array::uniform3(-1.0..1.0_f64), n in 0.0..1.0_f64, slip in 0.0..2.0_f64
         ) {
-            let r = project(mu, &a);
-            let u = [a[1], -a[2], n];
+            let r = project(mu, &Vector3::from(a));
+            let u = Vector3::new(a[1], -a[2], n);
             prop_assert!(bipotential_gap(mu, &u, &r) >= -1e-14);
-            let sliding = [slip * a[0], slip * a[1], 0.0];
+            let sliding = Vector3::new(slip * a[0], slip * a[1], 0.0);
             let t = tangential_norm(&sliding);
             prop_assume!(t > 1e-6);
-            let friction = [-mu * n * sliding[0] / t, -mu * n * sliding[1] / t, n];
+            let friction = Vector3::new(-mu * n * sliding[0] / t, -mu * n * sliding[1] / t, n);
             prop_assert!(bipotential_gap(mu, &sliding, &friction).abs() < 1e-14);
         }
     }
 
     #[test]
     fn apex_surface_and_inside_by_hand() {
-        assert_eq!(project(0.5, &[0.0, 0.0, -1.0]), [0.0; 3]);
-        assert_eq!(project(0.5, &[0.1, 0.0, 1.0]), [0.1, 0.0, 1.0]);
-        assert_eq!(project(1.0, &[2.0, 0.0]), [1.0, 1.0]);
-        assert_eq!(project(0.0, &[3.0, 4.0, 2.0]), [0.0, 0.0, 2.0]);
-        assert_eq!(project(7.0, &[-2.0]), [0.0]);
-        assert_eq!(project(0.0, &[0.0, 0.0, 0.0]), [0.0; 3]);
+        let space = |mu, v: [f64; 3]| <[f64; 3]>::from(project(mu, &Vector3::from(v)));
+        assert_eq!(space(0.5, [0.0, 0.0, -1.0]), [0.0; 3]);
+        assert_eq!(space(0.5, [0.1, 0.0, 1.0]), [0.1, 0.0, 1.0]);
+        assert_eq!(
+            project(1.0, &Vector2::new(2.0, 0.0)),
+            Vector2::new(1.0, 1.0)
+        );
+        assert_eq!(space(0.0, [3.0, 4.0, 2.0]), [0.0, 0.0, 2.0]);
+        assert_eq!(project(7.0, &Vector1::new(-2.0)), Vector1::zeros());
+        assert_eq!(space(0.0, [0.0, 0.0, 0.0]), [0.0; 3]);
+    }
+
+    #[test]
+    fn entries_of_flat_vectors_are_counted_by_contacts() {
+        for cone in [Cone::Frictionless, Cone::Planar, Cone::Spatial] {
+            let d = cone.dim();
+            assert_eq!(cone.range(2), 2 * d..3 * d);
+            assert_eq!(cone.normal(2), 3 * d - 1);
+            assert_eq!(cone.tangents(2), 2 * d..3 * d - 1);
+            assert!(cone.range(2).all(|entry| cone.contact(entry) == 2));
+            assert_eq!(cone.axes().last(), Some(&2));
+        }
+        assert_eq!(
+            Cone::Planar.spatial(&[1.0, 2.0]),
+            Vector3::new(1.0, 0.0, 2.0)
+        );
     }
 }

@@ -6,11 +6,10 @@ use faer::Mat;
 
 use crate::cone::Cone;
 use crate::delassus::{BlockSparse, Delassus};
+use crate::error_measure::{ErrorMeasure, errors};
 use crate::law::Status;
-use crate::local::difference;
 use crate::problem::ContactProblem;
 use crate::solve::Outcome;
-use crate::truth::{Truth, errors};
 
 /// A rough, curved indenter pressed into an elastic half-space and dragged along: a full-rank `W`, as finite elements make it.
 ///
@@ -96,7 +95,10 @@ pub fn brick_wall(rows: usize, columns: usize, mu: f64, push: f64) -> ContactPro
         Some(b) => [if b >= top { push } else { 0.0 }, 0.0, -1.0],
         None => [0.0; 3],
     };
-    let relative = |a: &WallContact| difference(&acceleration(a.upper), &acceleration(a.lower));
+    let relative = |a: &WallContact| {
+        let (upper, lower) = (acceleration(a.upper), acceleration(a.lower));
+        [0, 1, 2].map(|i| upper[i] - lower[i])
+    };
     let q = contacts.iter().flat_map(relative).collect();
     let w = match BlockSparse::from_blocks(n, 3, &blocks) {
         Ok(w) => Delassus::BlockSparse(w),
@@ -219,9 +221,9 @@ pub fn check_outcome(
     {
         return Err("NaN or infinity".to_owned());
     }
-    let truth = errors(problem, r);
-    if outcome.is_converged() && truth.worst() > tolerance {
-        return Err(format!("false success: {truth:?}"));
+    let measure = errors(problem, r);
+    if outcome.is_converged() && measure.worst() > tolerance {
+        return Err(format!("false success: {measure:?}"));
     }
     if !outcome.is_converged()
         && outcome.refusal.is_none()
@@ -241,13 +243,13 @@ pub fn check_outcome(
 /// # Errors
 /// The first contact that breaks the law, and how.
 pub fn check_law(problem: &ContactProblem, r: &[f64], tolerance: f64) -> Result<(), String> {
-    let truth = Truth::new(problem);
+    let measure = ErrorMeasure::new(problem);
     let mut u = vec![0.0; r.len()];
-    truth.velocity(r, &mut u);
+    measure.velocity(r, &mut u);
     let d = problem.cone.dim();
     let largest = |v: &[f64]| v.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
     let (ru, uu) = (largest(r), largest(&u).max(largest(&problem.q)));
-    for (c, diagnostic) in truth.diagnose(r, &u).iter().enumerate() {
+    for (c, diagnostic) in measure.diagnose(r, &u).iter().enumerate() {
         let (normal, gap) = (r[c * d + d - 1], u[c * d + d - 1]);
         let slip = (c * d..c * d + d - 1)
             .map(|i| u[i] * u[i])

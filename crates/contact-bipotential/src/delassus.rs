@@ -1,12 +1,19 @@
 //! The compliance of all contacts: `u = W r + q`.
 
+mod block_sparse;
+
 use std::fmt::Debug;
 use std::sync::Arc;
 
 use faer::Mat;
 
 use crate::error::ContactError;
-use crate::local::Matrix;
+use crate::local::{Matrix, load_block};
+
+pub use block_sparse::BlockSparse;
+
+/// A dense matrix, stored by columns.
+pub type DenseMatrix = Mat<f64>;
 
 /// `W` that is only known by what it does to a vector.
 pub trait DelassusOperator: Debug + Send + Sync {
@@ -24,203 +31,14 @@ pub trait DelassusOperator: Debug + Send + Sync {
 #[derive(Debug, Clone)]
 pub enum Delassus {
     /// All entries.
-    Dense(Mat<f64>),
+    Dense(DenseMatrix),
     /// Blocks of pairs of contacts that share a body.
     BlockSparse(BlockSparse),
     /// Matrix-free.
     Operator(Arc<dyn DelassusOperator>),
 }
 
-/// A square matrix of `dim x dim` blocks in compressed rows; columns ascend in each row, the diagonal is always there, and
-/// so is the mirror image of every block, if only as zeros.
-#[derive(Debug, Clone, PartialEq)]
-pub struct BlockSparse {
-    dim: usize,
-    offsets: Vec<usize>,
-    columns: Vec<u32>,
-    values: Vec<f64>,
-}
-
-impl BlockSparse {
-    /// From blocks `(row, column, values by rows)` in any order; blocks at the same place are summed.
-    ///
-    /// # Errors
-    /// [`ContactError::Block`] outside of `contacts`, [`ContactError::Length`] for a block without `dim * dim` values.
-    pub fn from_blocks(
-        contacts: usize,
-        dim: usize,
-        blocks: &[(usize, usize, Vec<f64>)],
-    ) -> Result<Self, ContactError> {
-        let zero = vec![0.0; dim * dim];
-        let mut order: Vec<(usize, usize, &[f64])> =
-            (0..contacts).map(|c| (c, c, zero.as_slice())).collect();
-        for (row, column, values) in blocks {
-            order.push((*column, *row, &zero));
-            if *row >= contacts || *column >= contacts {
-                return Err(ContactError::Block {
-                    row: *row,
-                    column: *column,
-                    contacts,
-                });
-            }
-            if values.len() != dim * dim {
-                let (found, expected) = (values.len(), dim * dim);
-                return Err(ContactError::Length {
-                    what: "block of W",
-                    contacts,
-                    found,
-                    expected,
-                });
-            }
-            order.push((*row, *column, values));
-        }
-        order.sort_by_key(|b| (b.0, b.1));
-        Ok(Self::from_sorted(contacts, dim, &order))
-    }
-
-    fn from_sorted(contacts: usize, dim: usize, blocks: &[(usize, usize, &[f64])]) -> Self {
-        let mut w = BlockSparse {
-            dim,
-            offsets: vec![0],
-            columns: Vec::new(),
-            values: Vec::new(),
-        };
-        let mut last = None;
-        for (row, column, values) in blocks {
-            if last == Some((*row, *column)) {
-                let start = w.values.len() - dim * dim;
-                for (sum, x) in w.values[start..].iter_mut().zip(*values) {
-                    *sum += x;
-                }
-                continue;
-            }
-            while w.offsets.len() <= *row {
-                w.offsets.push(w.columns.len());
-            }
-            w.columns.push(*column as u32);
-            w.values.extend_from_slice(values);
-            last = Some((*row, *column));
-        }
-        while w.offsets.len() <= contacts {
-            w.offsets.push(w.columns.len());
-        }
-        w
-    }
-
-    /// From entries `(row, column, value)` of the flat matrix; entries at the same place are summed.
-    ///
-    /// # Errors
-    /// [`ContactError::Entry`] outside of the matrix.
-    pub fn from_entries(
-        contacts: usize,
-        dim: usize,
-        entries: &[(usize, usize, f64)],
-    ) -> Result<Self, ContactError> {
-        let size = contacts * dim;
-        if let Some(&(row, column, _)) = entries.iter().find(|e| e.0 >= size || e.1 >= size) {
-            return Err(ContactError::Entry {
-                what: "W",
-                row,
-                column,
-                rows: size,
-                columns: size,
-            });
-        }
-        let mut places: Vec<(usize, usize)> = Vec::with_capacity(2 * entries.len());
-        places.extend(entries.iter().map(|e| (e.0 / dim, e.1 / dim)));
-        places.extend(entries.iter().map(|e| (e.1 / dim, e.0 / dim)));
-        places.extend((0..contacts).map(|c| (c, c)));
-        places.sort_unstable();
-        places.dedup();
-        let zero = vec![0.0; dim * dim];
-        let blocks: Vec<_> = places
-            .iter()
-            .map(|&(r, c)| (r, c, zero.as_slice()))
-            .collect();
-        let mut w = Self::from_sorted(contacts, dim, &blocks);
-        for &(row, column, value) in entries {
-            if let Ok(k) = places.binary_search(&(row / dim, column / dim)) {
-                w.values[k * dim * dim + (row % dim) * dim + column % dim] += value;
-            }
-        }
-        Ok(w)
-    }
-
-    /// Entries a contact.
-    pub fn dim(&self) -> usize {
-        self.dim
-    }
-
-    /// Number of contacts.
-    pub fn contacts(&self) -> usize {
-        self.offsets.len() - 1
-    }
-
-    /// Number of stored blocks.
-    pub fn block_count(&self) -> usize {
-        self.columns.len()
-    }
-
-    /// Columns of the blocks in row `c`.
-    #[inline]
-    pub fn row(&self, c: usize) -> &[u32] {
-        &self.columns[self.offsets[c]..self.offsets[c + 1]]
-    }
-
-    /// Values of the blocks in row `c`, block after block, each by rows.
-    #[inline]
-    pub fn row_values(&self, c: usize) -> &[f64] {
-        let size = self.dim * self.dim;
-        &self.values[self.offsets[c] * size..self.offsets[c + 1] * size]
-    }
-
-    /// All entries, as a dense matrix.
-    pub fn to_dense(&self) -> Mat<f64> {
-        let (d, n) = (self.dim, self.contacts() * self.dim);
-        let mut w = Mat::zeros(n, n);
-        for c in 0..self.contacts() {
-            for (&column, block) in self
-                .row(c)
-                .iter()
-                .zip(self.row_values(c).chunks_exact(d * d))
-            {
-                for i in 0..d {
-                    for j in 0..d {
-                        w[(c * d + i, column as usize * d + j)] = block[i * d + j];
-                    }
-                }
-            }
-        }
-        w
-    }
-
-    /// `u_c = sum_j W_cj r_j` for one contact.
-    #[inline(always)]
-    pub(crate) fn row_times<const D: usize>(&self, c: usize, r: &[f64]) -> [f64; D] {
-        let mut u = [0.0; D];
-        for (&column, block) in self
-            .row(c)
-            .iter()
-            .zip(self.row_values(c).chunks_exact(D * D))
-        {
-            let x = &r[column as usize * D..column as usize * D + D];
-            for i in 0..D {
-                for j in 0..D {
-                    u[i] += block[i * D + j] * x[j];
-                }
-            }
-        }
-        u
-    }
-
-    fn times<const D: usize>(&self, r: &[f64], out: &mut [f64]) {
-        for (c, u) in out.chunks_exact_mut(D).enumerate() {
-            u.copy_from_slice(&self.row_times::<D>(c, r));
-        }
-    }
-}
-
-/// Share of filled blocks from which the dense storage is faster.
+/// Share of filled blocks from which the dense storage is faster \[-\]: its products run through whole columns.
 const DENSE_SHARE: f64 = 0.4;
 
 impl Delassus {
@@ -243,6 +61,7 @@ impl Delassus {
     }
 
     /// The storage that suits the fill: a dense matrix with few non-zero blocks becomes block-sparse.
+    #[must_use]
     pub fn compressed(self, contacts: usize, dim: usize) -> Self {
         let Delassus::Dense(w) = &self else {
             return self;
@@ -261,6 +80,7 @@ impl Delassus {
     }
 
     /// Size of `r` and `u`.
+    #[must_use]
     pub fn size(&self) -> usize {
         match self {
             Delassus::Dense(w) => w.nrows(),
@@ -282,39 +102,28 @@ impl Delassus {
         }
     }
 
-    /// The diagonal block of contact `c`.
+    /// The diagonal block of contact `c`; `D` is [`Cone::dim`](crate::Cone::dim).
+    #[must_use]
     pub fn diagonal<const D: usize>(&self, c: usize) -> Matrix<D> {
-        let mut block = [[0.0; D]; D];
         match self {
-            Delassus::Dense(w) => {
-                for i in 0..D {
-                    for j in 0..D {
-                        block[i][j] = w[(c * D + i, c * D + j)];
-                    }
-                }
-            }
+            Delassus::Dense(w) => Matrix::from_fn(|i, j| w[(c * D + i, c * D + j)]),
             Delassus::BlockSparse(w) => {
                 let found = w.row(c).binary_search(&(c as u32));
-                if let Ok(k) = found {
-                    let values = &w.row_values(c)[k * D * D..(k + 1) * D * D];
-                    for i in 0..D {
-                        block[i].copy_from_slice(&values[i * D..(i + 1) * D]);
-                    }
-                }
+                found.map_or(Matrix::zeros(), |k| {
+                    load_block(&w.row_values(c)[k * D * D..])
+                })
             }
             Delassus::Operator(w) => {
                 let mut flat = [0.0; 9];
                 w.diagonal_block(c, D, &mut flat[..D * D]);
-                for i in 0..D {
-                    block[i].copy_from_slice(&flat[i * D..(i + 1) * D]);
-                }
+                load_block(&flat)
             }
         }
-        block
     }
 
     /// All entries. An operator is applied to every unit vector: `size` products.
-    pub fn to_dense(&self) -> Mat<f64> {
+    #[must_use]
+    pub fn to_dense(&self) -> DenseMatrix {
         match self {
             Delassus::Dense(w) => w.clone(),
             Delassus::BlockSparse(w) => w.to_dense(),

@@ -9,7 +9,7 @@ use crate::delassus::Delassus;
 use crate::error::ContactError;
 use crate::problem::ContactProblem;
 
-/// Numbers of `M^-1 H` that are held at a time.
+/// Numbers of `M^-1 H` that are held at a time: 32 MiB of them.
 const BATCH: usize = 1 << 22;
 
 /// A sparse matrix as a list of entries; entries at the same place are summed.

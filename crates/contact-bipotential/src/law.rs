@@ -1,7 +1,7 @@
 //! Contact and friction at one point: the natural map and the status.
 
 use crate::cone::{self, Region};
-use crate::local::{Vector, difference, tangential_dot, tangential_norm};
+use crate::local::{Vector, tangential_dot, tangential_norm};
 
 /// What a contact does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,32 +16,35 @@ pub enum Status {
 
 /// `F = r - Proj_K(r - rho (u + mu |u_t| n))`, in the unit of `r`; zero exactly where the law holds.
 #[inline]
+#[must_use]
 pub fn natural_map<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
-    difference(r, &cone::project(mu, &candidate(mu, rho, u, r)))
+    r - cone::project(mu, &predictor(mu, rho, u, r))
 }
 
 /// The status that the point `r - rho (u + mu |u_t| n)` predicts.
 #[inline]
-pub fn status<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Status {
-    match cone::region(mu, &candidate(mu, rho, u, r)) {
+pub(crate) fn status<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Status {
+    match cone::region(mu, &predictor(mu, rho, u, r)) {
         Region::Polar => Status::Separate,
         Region::Inside => Status::Stick,
         Region::Surface => Status::Slip,
     }
 }
 
+/// The predictor `r - rho (u + mu |u_t| n)` of the bi-potential method, whose projection on the cone is the corrector.
 #[inline(always)]
-fn candidate<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {
-    let v = cone::modified_velocity(mu, u);
-    let mut z = *r;
-    for i in 0..D {
-        z[i] -= rho * v[i];
-    }
-    z
+pub(crate) fn predictor<const D: usize>(
+    mu: f64,
+    rho: f64,
+    u: &Vector<D>,
+    r: &Vector<D>,
+) -> Vector<D> {
+    r - cone::modified_velocity(mu, u) * rho
 }
 
 /// How one contact stands with the law, in words a mechanician checks by hand.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ContactDiagnostic {
     /// Status by the natural map.
     pub status: Status,
@@ -56,7 +59,7 @@ pub struct ContactDiagnostic {
 }
 
 /// Diagnoses one contact; `rho` is its compliance scale, `1 / mean diagonal of W_cc`.
-pub fn diagnose<const D: usize>(
+pub(crate) fn diagnose<const D: usize>(
     mu: f64,
     rho: f64,
     u: &Vector<D>,
@@ -86,6 +89,7 @@ pub fn diagnose<const D: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector3;
 
     #[test]
     fn the_law_holds_in_each_status_whatever_rho() {
@@ -96,6 +100,7 @@ mod tests {
             (Status::Slip, [0.3, 0.4, 0.0], [-0.24, -0.32, 1.0]),
         ];
         for (expected, u, r) in cases {
+            let (u, r) = (Vector3::from(u), Vector3::from(r));
             for rho in [1e-3, 1.0, 1e3] {
                 let f = natural_map(mu, rho, &u, &r);
                 assert!(f.iter().all(|x| x.abs() < 1e-12), "{expected:?} {f:?}");
@@ -109,22 +114,17 @@ mod tests {
     #[test]
     fn each_violation_shows_where_it_belongs() {
         let mu = 0.5;
-        assert_eq!(
-            diagnose(mu, 1.0, &[0.0, 0.0, -0.25], &[0.0, 0.0, 1.0]).penetration,
-            0.25
-        );
-        assert_eq!(
-            diagnose(mu, 1.0, &[0.0, 0.0, 0.0], &[1.0, 0.0, 1.0]).cone_slack,
-            -0.5
-        );
-        let turned = diagnose(mu, 1.0, &[1.0, 0.0, 0.0], &[0.0, 0.5, 1.0]);
+        let at = |u: [f64; 3], r: [f64; 3]| diagnose(mu, 1.0, &u.into(), &r.into());
+        assert_eq!(at([0.0, 0.0, -0.25], [0.0, 0.0, 1.0]).penetration, 0.25);
+        assert_eq!(at([0.0, 0.0, 0.0], [1.0, 0.0, 1.0]).cone_slack, -0.5);
+        let turned = at([1.0, 0.0, 0.0], [0.0, 0.5, 1.0]);
         assert!((turned.misalignment - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
         for (u, r) in [
             ([0.0, 0.0, -0.25], [0.0, 0.0, 1.0]),
             ([1.0, 0.0, 0.0], [0.0, 0.5, 1.0]),
         ] {
-            let f = natural_map(mu, 1.0, &u, &r);
-            assert!(f.iter().any(|x| x.abs() > 0.1));
+            let f = natural_map(mu, 1.0, &Vector3::from(u), &Vector3::from(r));
+            assert!(f.amax() > 0.1);
         }
     }
 }

@@ -3,13 +3,13 @@
 use crate::cone::Cone;
 use crate::delassus::Delassus;
 use crate::error::ContactError;
-use crate::local::trace;
 
 /// Find `r` with `u = W r + q`, `r` in `K`, `u + mu |u_t| n` in `K*`, orthogonal.
 ///
 /// Flat vectors hold `cone.dim()` entries a contact, normal last; `r_n >= 0` is compression, `u_n >= 0` separation.
 /// `u` may be a gap \[m\] with `r` a force, or a velocity with `r` an impulse: the solvers know no unit.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct ContactProblem {
     /// Delassus matrix, unit of `u` over unit of `r`.
     pub w: Delassus,
@@ -27,12 +27,19 @@ impl ContactProblem {
     /// # Errors
     /// Those of [`Self::check`].
     pub fn new(w: Delassus, q: Vec<f64>, mu: Vec<f64>, cone: Cone) -> Result<Self, ContactError> {
-        let problem = ContactProblem { w, q, mu, cone };
+        let problem = Self::unchecked(w, q, mu, cone);
         problem.check()?;
         Ok(problem)
     }
 
+    /// The same without the checks, which [`solve`](crate::solve) makes anyway.
+    #[must_use]
+    pub fn unchecked(w: Delassus, q: Vec<f64>, mu: Vec<f64>, cone: Cone) -> Self {
+        ContactProblem { w, q, mu, cone }
+    }
+
     /// Number of contacts.
+    #[must_use]
     pub fn contacts(&self) -> usize {
         self.mu.len()
     }
@@ -89,7 +96,7 @@ impl ContactProblem {
     }
 
     fn check_numbers(&self) -> Result<(), ContactError> {
-        let d = self.cone.dim();
+        let cone = self.cone;
         let bad = |what, entry: usize, contact, value| {
             Err(ContactError::NotFinite {
                 what,
@@ -99,13 +106,13 @@ impl ContactProblem {
             })
         };
         if let Some((k, &x)) = first_bad(&self.q) {
-            return bad("q", k, k / d, x);
+            return bad("q", k, cone.contact(k), x);
         }
         match &self.w {
             Delassus::Dense(w) => {
                 for j in 0..w.ncols() {
                     if let Some((i, &x)) = first_bad(w.col_as_slice(j)) {
-                        return bad("W", i * w.ncols() + j, i / d, x);
+                        return bad("W", i * w.ncols() + j, cone.contact(i), x);
                     }
                 }
             }
@@ -123,19 +130,20 @@ impl ContactProblem {
 
     fn normal_compliance(&self, c: usize) -> f64 {
         match self.cone {
-            Cone::Frictionless => self.w.diagonal::<1>(c)[0][0],
-            Cone::Planar => self.w.diagonal::<2>(c)[1][1],
-            Cone::Spatial => self.w.diagonal::<3>(c)[2][2],
+            Cone::Frictionless => self.w.diagonal::<1>(c)[(0, 0)],
+            Cone::Planar => self.w.diagonal::<2>(c)[(1, 1)],
+            Cone::Spatial => self.w.diagonal::<3>(c)[(2, 2)],
         }
     }
 
     /// Compliance scale of each contact: mean diagonal of `W_cc`; where that vanishes, the mean over the others (or 1).
+    #[must_use]
     pub fn compliance_scales(&self) -> Vec<f64> {
         let mut scales: Vec<f64> = (0..self.contacts())
             .map(|c| match self.cone {
-                Cone::Frictionless => trace(&self.w.diagonal::<1>(c)),
-                Cone::Planar => trace(&self.w.diagonal::<2>(c)) / 2.0,
-                Cone::Spatial => trace(&self.w.diagonal::<3>(c)) / 3.0,
+                Cone::Frictionless => self.w.diagonal::<1>(c).trace(),
+                Cone::Planar => self.w.diagonal::<2>(c).trace() / 2.0,
+                Cone::Spatial => self.w.diagonal::<3>(c).trace() / 3.0,
             })
             .collect();
         let good = |x: f64| x > 0.0 && x.is_finite();

@@ -8,17 +8,38 @@
 mod parameters;
 mod update;
 
+use nalgebra::{Matrix3, Vector3};
+
 pub use parameters::{Adhesion, Healing, Reference, Update};
 use update::{blend, blend_slope, decay_mean, decay_mean_slope};
 
-/// Gap over the damage gap up to which a pair counts as touching: its bond is strained by a millionth of `w`. An iteration
+/// Gap over the damage gap \[-\] up to which a pair counts as touching: its bond is strained by a millionth of `w`. An iteration
 /// that approaches a closed gap from above must not see healing come and go with the last digits.
 const CLOSED: f64 = 1e-3;
 
-/// Share of its intensity that a bond may lose in a step that is believed although the end might be another one.
+/// Share of its intensity \[-\] that a bond may lose in a step that is believed although the end might be another one.
 const CONTINUED: f64 = 0.2;
 
+/// Pull over the strength of a bond below which it is not worth following \[-\].
+const WEAK: f64 = 1e-3;
+
 /// The bond of a slave node between two steps.
+///
+/// ```
+/// use contact_bipotential::nalgebra::Vector3;
+/// use contact_bipotential::{Adhesion, Bond, BondStep};
+///
+/// # fn main() -> Result<(), contact_bipotential::ParameterError> {
+/// let law = Adhesion::new(2e9, 1.5e9, 20.0, 0.1).validated()?;
+/// let (area, dt) = (1e-4, 1e-3);
+/// // A millisecond in which an intact bond is pulled to three times the gap at which it starts to break.
+/// let step = BondStep::new(&law, area, dt, Bond::new(1.0, 0.0, [0.0; 2]), 0.0);
+/// let end = Vector3::new(0.0, 0.0, 3.0 * law.damage_gap());
+/// assert!(step.at(&end).force.z < 0.0);
+/// assert!(step.finish(&end).intensity < 1.0);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bond {
     /// `beta` \[-\], 0 broken, 1 intact.
@@ -30,8 +51,19 @@ pub struct Bond {
 }
 
 impl Bond {
+    /// A bond of `intensity` \[-\] at the `gap` \[m\] with the tangential `separation` \[m\].
+    #[must_use]
+    pub const fn new(intensity: f64, gap: f64, separation: [f64; 2]) -> Self {
+        Self {
+            intensity,
+            gap,
+            separation,
+        }
+    }
+
     /// Whether the bond is worth following: not broken, and pulling with a thousandth of its strength `s0 = sqrt(w C)` or
     /// more. What is left of the work of separation then is `w/200` at most in slow separation.
+    #[must_use]
     pub fn holds(&self, law: &Adhesion) -> bool {
         let [t1, t2] = law.tangential_stiffness;
         let [u1, u2] = self.separation;
@@ -39,10 +71,11 @@ impl Bond {
             (law.normal_stiffness * self.gap).powi(2) + (t1 * u1).powi(2) + (t2 * u2).powi(2);
         let strength = (law.energy * t1.max(t2).max(law.normal_stiffness)).sqrt();
         let beta = self.intensity;
-        beta > law.threshold && (self.gap == 0.0 || beta * beta * pull.sqrt() > 1e-3 * strength)
+        beta > law.threshold && (self.gap == 0.0 || beta * beta * pull.sqrt() > WEAK * strength)
     }
 
-    /// Free energy of the bond \[J\] on an area [m^2].
+    /// Free energy of the bond \[J\] on an area \[m^2\].
+    #[must_use]
     pub fn energy(&self, law: &Adhesion, area: f64) -> f64 {
         let (beta, k) = (self.intensity, law.strain(&self.separation, self.gap));
         area * beta * (0.5 * beta * k - law.energy)
@@ -64,20 +97,22 @@ pub struct BondStep {
 
 /// A bond at one end position of a step; local axes `(t1, t2, n)`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct BondPoint {
     /// `beta` at the end \[-\].
     pub intensity: f64,
     /// Bond force on the slave \[N\]: it pulls the slave back.
-    pub force: [f64; 3],
-    /// Minus the derivative of the force with respect to `(dx_t, x_n)` [N/m]; not symmetric, may be indefinite where the bond
+    pub force: Vector3<f64>,
+    /// Minus the derivative of the force with respect to `(dx_t, x_n)` \[N/m\]; not symmetric, may be indefinite where the bond
     /// softens.
-    pub stiffness: [[f64; 3]; 3],
+    pub stiffness: Matrix3<f64>,
     /// Derivative of `beta` with respect to `(dx_t, x_n)` \[1/m\].
-    pub intensity_slope: [f64; 3],
+    pub intensity_slope: Vector3<f64>,
 }
 
 /// Energies of a bond over one step \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct BondEnergy {
     /// Change of the free energy \[J\].
     pub stored: f64,
@@ -88,7 +123,8 @@ pub struct BondEnergy {
 }
 
 impl BondStep {
-    /// A step of `dt` \[s\] of a bond on an `area` [m^2]; `roundoff` is the error of a gap \[m\].
+    /// A step of `dt` \[s\] of a bond on an `area` \[m^2\]; `roundoff` is the error of a gap \[m\].
+    #[must_use]
     pub fn new(law: &Adhesion, area: f64, dt: f64, start: Bond, roundoff: f64) -> Self {
         let touching = law.healing_gap + roundoff.max(CLOSED * law.damage_gap());
         let ages = law.reference == Reference::Ageing && start.gap <= touching;
@@ -109,6 +145,7 @@ impl BondStep {
     }
 
     /// A contact without adhesion.
+    #[must_use]
     pub fn none() -> Self {
         Self::new(
             &Adhesion::new(0.0, 0.0, 0.0, 0.0),
@@ -120,16 +157,19 @@ impl BondStep {
     }
 
     /// The bond at the start of the step.
+    #[must_use]
     pub fn start(&self) -> &Bond {
         &self.start
     }
 
     /// Whether a pair at the gap `x_n` \[m\] touches, so that bonds can form.
+    #[must_use]
     pub fn touches(&self, gap: f64) -> bool {
         gap <= self.touching
     }
 
     /// Whether there is a bond at the start, or one may form at the gap `x_n` \[m\].
+    #[must_use]
     pub fn may_act(&self, gap: f64) -> bool {
         self.area > 0.0
             && (self.start.intensity > 0.0
@@ -137,25 +177,27 @@ impl BondStep {
     }
 
     /// `mu` at the intensity `beta`, where `mu` is that of the bare surfaces \[-\].
+    #[must_use]
     pub fn friction(&self, mu: f64, beta: f64) -> f64 {
         let bonded = self.law.bonded_friction.filter(|_| self.area > 0.0);
         bonded.map_or(mu, |bonded| mu + (bonded - mu) * beta)
     }
 
     /// Derivative of [`friction`](Self::friction) with respect to `beta`.
+    #[must_use]
     pub fn friction_slope(&self, mu: f64) -> f64 {
         self.friction(mu, 1.0) - mu
     }
 
     /// `(u_t1, x_n)` at the end position `x = (dx_t, x_n)`.
-    fn end(&self, x: &[f64; 3]) -> ([f64; 2], f64) {
+    fn end(&self, x: &Vector3<f64>) -> ([f64; 2], f64) {
         let u = self.start.separation;
         let separation = [0, 1].map(|i| self.kept * (u[i] + x[i]));
         (separation, x[2].max(0.0))
     }
 
     /// The `k` that stands for the whole step, and its derivative with respect to that at the end.
-    fn mean_strain(&self, x: &[f64; 3]) -> (f64, f64) {
+    fn mean_strain(&self, x: &Vector3<f64>) -> (f64, f64) {
         let (separation, gap) = self.end(x);
         let k1 = self.law.strain(&separation, gap);
         let k0 = self.law.strain(&self.start.separation, self.start.gap);
@@ -176,7 +218,8 @@ impl BondStep {
     }
 
     /// `beta` at the end position `x = (dx_t, x_n)` \[m\], and its derivative with respect to the `k` there.
-    pub fn intensity(&self, x: &[f64; 3]) -> (f64, f64) {
+    #[must_use]
+    pub fn intensity(&self, x: &Vector3<f64>) -> (f64, f64) {
         let (start, law) = (self.start.intensity, &self.law);
         if self.area == 0.0 {
             return (0.0, 0.0);
@@ -214,16 +257,17 @@ impl BondStep {
         (beta, -0.5 * (start + beta) / (b + 0.5 * k))
     }
 
-    /// For the intensity `beta` at the end the force is `-D (x + shift)`: the diagonal `D` [N/m] and the shift \[m\]
+    /// For the intensity `beta` at the end the force is `-D (x + shift)`: the diagonal `D` \[N/m\] and the shift \[m\]
     /// (`(I + W D)^-1 W` is then the compliance that friction sees). Valid for `x_n >= 0`.
-    pub fn spring(&self, beta: f64) -> ([f64; 3], [f64; 3]) {
+    #[must_use]
+    pub fn spring(&self, beta: f64) -> (Vector3<f64>, Vector3<f64>) {
         let [t1, t2] = self.law.tangential_stiffness;
-        let c = [self.kept * t1, self.kept * t2, self.law.normal_stiffness];
+        let c = Vector3::new(self.kept * t1, self.kept * t2, self.law.normal_stiffness);
         let (u, start) = (self.start.separation, self.start.intensity);
         match self.law.update {
             Update::SecondOrder => {
                 let factor = self.area * beta * beta;
-                (c.map(|c| factor * c), [u[0], u[1], 0.0])
+                (c * factor, Vector3::new(u[0], u[1], 0.0))
             }
             Update::EnergyConsistent => {
                 let factor = 0.25 * self.area * (start * start + beta * beta);
@@ -233,39 +277,34 @@ impl BondStep {
                 } else {
                     0.0
                 };
-                let shift = [back * u[0], back * u[1], self.start.gap];
-                (c.map(|c| factor * c), shift)
+                let shift = Vector3::new(back * u[0], back * u[1], self.start.gap);
+                (c * factor, shift)
             }
         }
     }
 
     /// The bond at the end position `x = (dx_t, x_n)` \[m\]. A penetration of an iterate counts as no gap.
-    pub fn at(&self, x: &[f64; 3]) -> BondPoint {
+    #[must_use]
+    pub fn at(&self, x: &Vector3<f64>) -> BondPoint {
         let (intensity, slope) = self.intensity(x);
         let (mut d, shift) = self.spring(intensity);
         let per_square = self.spring_per_square();
         let (separation, gap) = self.end(x);
         let open = x[2] > 0.0;
-        let stretch = [x[0] + shift[0], x[1] + shift[1], gap + shift[2]];
-        let force = [0, 1, 2].map(|i| -d[i] * stretch[i]);
+        let stretch = Vector3::new(x[0], x[1], gap) + shift;
+        let force = -d.component_mul(&stretch);
         if !open {
             d[2] = 0.0;
         }
         let [t1, t2] = self.law.tangential_stiffness;
-        let k_slope = [
+        let k_slope = Vector3::new(
             2.0 * t1 * self.kept * separation[0],
             2.0 * t2 * self.kept * separation[1],
             2.0 * self.law.normal_stiffness * gap,
-        ];
-        let intensity_slope = k_slope.map(|k| slope * k);
-        let mut stiffness = [[0.0; 3]; 3];
-        for i in 0..3 {
-            stiffness[i][i] = d[i];
-            let softening = 2.0 * intensity * per_square[i] * stretch[i];
-            for j in 0..3 {
-                stiffness[i][j] += softening * intensity_slope[j];
-            }
-        }
+        );
+        let intensity_slope = k_slope * slope;
+        let softening = (per_square * (2.0 * intensity)).component_mul(&stretch);
+        let stiffness = Matrix3::from_diagonal(&d) + softening * intensity_slope.transpose();
         BondPoint {
             intensity,
             force,
@@ -275,13 +314,13 @@ impl BondStep {
     }
 
     /// Derivative of `D` with respect to `beta^2`.
-    fn spring_per_square(&self) -> [f64; 3] {
-        let ((one, _), (zero, _)) = (self.spring(1.0), self.spring(0.0));
-        [0, 1, 2].map(|i| one[i] - zero[i])
+    fn spring_per_square(&self) -> Vector3<f64> {
+        self.spring(1.0).0 - self.spring(0.0).0
     }
 
     /// The bond after the step that ended at `x`; one that has parted and is weaker than the threshold is forgotten.
-    pub fn finish(&self, x: &[f64; 3]) -> Bond {
+    #[must_use]
+    pub fn finish(&self, x: &Vector3<f64>) -> Bond {
         let (separation, gap) = self.end(x);
         let intensity = self.intensity(x).0;
         if !self.touches(gap) && intensity < self.law.threshold {
@@ -299,7 +338,8 @@ impl BondStep {
 
     /// Energies of the step that ended at `x`. Work minus stored minus dissipated is the error of the integration: zero for
     /// [`Update::EnergyConsistent`] without ageing.
-    pub fn energy(&self, x: &[f64; 3]) -> BondEnergy {
+    #[must_use]
+    pub fn energy(&self, x: &Vector3<f64>) -> BondEnergy {
         let (separation, gap) = self.end(x);
         let (b0, b1) = (self.start.intensity, self.intensity(x).0);
         let end = Bond {
@@ -332,8 +372,9 @@ impl BondStep {
 
     /// Whether the step may have jumped: the bond lost a good part of its intensity, and more than one end position may
     /// satisfy the law, since it softens faster than both viscosity over `dt` and the body of local stiffness `stiffness`
-    /// [N/m] can follow. A branch that goes on is told from a jump by steps so short that the bond loses little in each.
-    pub fn may_snap(&self, x: &[f64; 3], stiffness: f64) -> bool {
+    /// \[N/m\] can follow. A branch that goes on is told from a jump by steps so short that the bond loses little in each.
+    #[must_use]
+    pub fn may_snap(&self, x: &Vector3<f64>, stiffness: f64) -> bool {
         let (separation, gap) = self.end(x);
         let c = self
             .law

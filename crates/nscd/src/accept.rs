@@ -6,7 +6,7 @@ use crate::bonds::{adhesive_energy, bonds_after};
 use crate::energy::{Accepted, audit};
 use crate::flat::{largest, round_off};
 use crate::iterate::Iterate;
-use crate::local::{relative_displacement, relative_velocity, spatial};
+use crate::local::{relative_displacement, relative_velocity};
 use crate::model::{Model, point};
 use crate::monitor::Check;
 use crate::report::{Resultant, StepReport};
@@ -87,14 +87,14 @@ fn support_force(iterate: &Iterate, fixed: &[bool]) -> Vec<f64> {
 fn contact_states(step: &StepProblem<'_>, iterate: &Iterate, moved: &[f64]) -> Vec<ContactState> {
     let force_scale = largest(&iterate.r);
     let velocity = relative_velocity(step, &iterate.map, &iterate.v);
-    let cone = iterate.map.cone().dim();
+    let cone = iterate.map.cone();
     let contacts = iterate.map.contacts.iter().enumerate();
     contacts
         .map(|(k, c)| {
             let (force, x) = (iterate.force(k), iterate.local(k));
             let motion = match step.model.scheme.contact {
                 ContactLevel::Position => x,
-                ContactLevel::Velocity => spatial(&moved[cone * k..cone * (k + 1)]),
+                ContactLevel::Velocity => cone.spatial(&moved[cone.range(k)]),
             };
             let interface = &step.model.interfaces[c.interface];
             let mut mu = interface.mu;
@@ -108,7 +108,7 @@ fn contact_states(step: &StepProblem<'_>, iterate: &Iterate, moved: &[f64]) -> V
                 BondState {
                     intensity: at.intensity,
                     separation: bond.finish(&x).separation,
-                    force: at.force.into(),
+                    force: at.force,
                 }
             });
             let dry = force - bond.map_or(Vector3::zeros(), |bond| bond.force);
@@ -117,7 +117,7 @@ fn contact_states(step: &StepProblem<'_>, iterate: &Iterate, moved: &[f64]) -> V
                 slave_index: c.slave_index,
                 node: c.slave,
                 gap: c.gap,
-                normal_velocity: velocity[cone * k + cone - 1],
+                normal_velocity: velocity[cone.normal(k)],
                 slip: [motion[0], motion[1]],
                 force,
                 frame: c.frame,

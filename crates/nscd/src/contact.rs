@@ -1,9 +1,9 @@
 //! The contact problem of one iteration: which forces, together with the residual, make the linearised bodies obey the contact
 //! law.
 
-use contact_bipotential::solve::frozen;
 use contact_bipotential::{
     BondStep, Cone, ContactMap, ContactProblem, Delassus, SequenceSolver, SolveSettings,
+    freeze_bonds,
 };
 use faer::Mat;
 
@@ -12,7 +12,6 @@ use crate::body::BodySystem;
 use crate::error::StepFailure;
 use crate::flat::round_off;
 use crate::iterate::Iterate;
-use crate::local::spatial;
 use crate::memory::{ContactMemory, filtered};
 use crate::model::Model;
 use crate::operator::ContactOperator;
@@ -91,12 +90,7 @@ impl ContactSolver {
         }
         Ok(LinearisedContact {
             r: selected(&iterate.r, cone, &keep),
-            problem: ContactProblem {
-                w: Delassus::Dense(w),
-                q,
-                mu,
-                cone,
-            },
+            problem: ContactProblem::unchecked(Delassus::Dense(w), q, mu, cone),
             map,
             whole,
             bonds,
@@ -112,11 +106,9 @@ impl ContactSolver {
         memory: &mut ContactMemory,
         counters: &mut Counters,
     ) -> Result<Vec<f64>, StepFailure> {
-        let settings = SolveSettings {
-            tolerance,
-            max_iterations: model.settings.contact_iterations,
-            ..SolveSettings::default()
-        };
+        let settings = SolveSettings::default()
+            .with_tolerance(tolerance)
+            .with_max_iterations(model.settings.contact_iterations);
         let LinearisedContact {
             map,
             problem,
@@ -158,7 +150,7 @@ impl ContactSolver {
         self.last = Some(LastProblem {
             q: solved.problem.q,
             mu: solved.problem.mu,
-            intensities: at.map(|(b, x)| b.intensity(&spatial(x)).0).collect(),
+            intensities: at.map(|(b, x)| b.intensity(&cone.spatial(x)).0).collect(),
             bonds: solved.bonds,
             cone,
         });
@@ -169,16 +161,13 @@ impl ContactSolver {
     /// The last contact problem of the present step, a copy; with bonds the one that they leave for the dry forces.
     pub(crate) fn last_problem(&self) -> Option<ContactProblem> {
         let (last, w) = (self.last.as_ref()?, self.operator.kept()?);
-        let problem = ContactProblem {
-            w: Delassus::Dense(w.clone()),
-            q: last.q.clone(),
-            mu: last.mu.clone(),
-            cone: last.cone,
-        };
+        let w_of_all = Delassus::Dense(w.clone());
+        let problem =
+            ContactProblem::unchecked(w_of_all, last.q.clone(), last.mu.clone(), last.cone);
         if last.bonds.is_empty() {
             return Some(problem);
         }
-        Some(frozen(&problem, &last.bonds, w, &last.intensities))
+        Some(freeze_bonds(&problem, &last.bonds, w, &last.intensities))
     }
 }
 
@@ -211,9 +200,9 @@ fn selected(all: &[f64], cone: Cone, keep: &[bool]) -> Vec<f64> {
 /// Which candidates have a bond or may form one: at the present gap, or at the `free` one that they would have without forces.
 /// Bonds of neighbours may hold a surface so near that it stays within reach of its own.
 fn acting(iterate: &Iterate, free: &[f64]) -> Vec<bool> {
-    let cone = iterate.map.cone().dim();
+    let cone = iterate.map.cone();
     let one = |(k, bond): (usize, &BondStep)| {
-        let normal = cone * k + cone - 1;
+        let normal = cone.normal(k);
         bond.may_act(free[normal].min(iterate.gap(k)))
     };
     iterate.bonds.iter().enumerate().map(one).collect()
@@ -226,10 +215,10 @@ fn entering(model: &Model, iterate: &Iterate, free: &[f64], acts: &[bool]) -> Ve
     if model.scheme.contact == ContactLevel::Velocity {
         return vec![true; map.len()];
     }
-    let cone = map.cone().dim();
+    let cone = map.cone();
     let near = |k: usize| {
         let interface = &model.interfaces[map.contacts[k].interface];
-        free[cone * k + cone - 1] <= NEAR * interface.search_distance
+        free[cone.normal(k)] <= NEAR * interface.search_distance
     };
     let bonded = |k: usize| acts.get(k).is_some_and(|acts| *acts);
     (0..map.len())
@@ -245,8 +234,8 @@ fn refuse_immovable(
     w: &Mat<f64>,
     q: &[f64],
 ) -> Result<(), StepFailure> {
-    let cone = map.cone().dim();
-    let normal = |k: usize| cone * k + cone - 1;
+    let cone = map.cone();
+    let normal = |k: usize| cone.normal(k);
     let closed = (0..map.len()).filter(|&k| w[(normal(k), normal(k))] == 0.0 && q[normal(k)] < 0.0);
     let deepest = closed.min_by(|a, b| q[normal(*a)].total_cmp(&q[normal(*b)]));
     let Some(deepest) = deepest else {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::flat::{difference, dot};
 use crate::iterate::Iterate;
-use crate::local::{relative_velocity, spatial};
+use crate::local::relative_velocity;
 use crate::report::EnergyTerms;
 use crate::scheme::{ContactLevel, Inertia};
 use crate::state::ContactState;
@@ -65,14 +65,14 @@ fn contact_terms(
     contacts: &[ContactState],
     terms: &mut EnergyTerms,
 ) {
-    let cone = iterate.map.cone().dim();
+    let cone = iterate.map.cone();
     let velocity = match step.model.scheme.contact {
         ContactLevel::Velocity => mean_velocity(step, iterate),
         ContactLevel::Position => Vec::new(),
     };
     for (k, c) in iterate.map.contacts.iter().enumerate() {
         let r = iterate.force(k);
-        let dx = Vector3::from(spatial(&moved[cone * k..cone * (k + 1)]));
+        let dx = cone.spatial(&moved[cone.range(k)]);
         let bond = contacts[k].bond.map_or(Vector3::zeros(), |bond| bond.force);
         let slip = contacts[k].slip;
         terms.load_work += contacts[k].global_force().dot(&c.obstacle_motion);
@@ -80,7 +80,7 @@ fn contact_terms(
         match step.model.scheme.contact {
             ContactLevel::Velocity => {
                 // An impulse works on the mean of the velocities before and after it, whatever way the scheme takes.
-                let way = step.dt * velocity[cone * (k + 1) - 1];
+                let way = step.dt * velocity[cone.normal(k)];
                 terms.impact -= r[2] * way;
                 terms.gap_error += r[2] * (way - dx[2]);
             }

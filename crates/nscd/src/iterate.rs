@@ -5,7 +5,6 @@ use contact_bipotential::{BondStep, Contact, ContactMap};
 use nalgebra::Vector3;
 
 use crate::error::ContactPlace;
-use crate::local::spatial;
 use crate::model::Model;
 use crate::scheme::Inertia;
 use crate::step_problem::StepProblem;
@@ -83,7 +82,7 @@ impl Iterate {
 
     /// Row of the normal component of contact `k`.
     fn normal(&self, k: usize) -> usize {
-        (k + 1) * self.map.cone().dim() - 1
+        self.map.cone().normal(k)
     }
 
     /// Normal component of the local variable of contact `k` \[m\]: its gap at the position level.
@@ -97,15 +96,15 @@ impl Iterate {
     }
 
     /// Local variable of contact `k` in `(t1, t2, n)` \[m\].
-    pub(crate) fn local(&self, k: usize) -> [f64; 3] {
-        let cone = self.map.cone().dim();
-        spatial(&self.x[cone * k..cone * (k + 1)])
+    pub(crate) fn local(&self, k: usize) -> Vector3<f64> {
+        let cone = self.map.cone();
+        cone.spatial(&self.x[cone.range(k)])
     }
 
     /// Force of contact `k` in `(t1, t2, n)` \[N\].
     pub(crate) fn force(&self, k: usize) -> Vector3<f64> {
-        let cone = self.map.cone().dim();
-        spatial(&self.r[cone * k..cone * (k + 1)]).into()
+        let cone = self.map.cone();
+        cone.spatial(&self.r[cone.range(k)])
     }
 
     /// Whether every candidate would stay open, and every bond idle, under the correction `z` \[m\] alone.

@@ -17,7 +17,6 @@ mod cost;
 mod elements;
 mod energy;
 mod error;
-mod extrapolation;
 mod flat;
 mod floating;
 mod iterate;

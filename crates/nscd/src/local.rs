@@ -1,7 +1,6 @@
 //! Slip and gap: the local variable of the contact law, at an iterate.
 
-use contact_bipotential::local::local_axes;
-use contact_bipotential::{Contact, ContactMap};
+use contact_bipotential::{Cone, Contact, ContactMap};
 
 use crate::flat::difference;
 use crate::scheme::ContactLevel;
@@ -15,13 +14,13 @@ pub(crate) fn local_variable(
     u: &[f64],
     v: &[f64],
 ) -> Vec<f64> {
-    let cone = map.cone().dim();
+    let cone = map.cone();
     match step.model.scheme.contact {
         ContactLevel::Position => {
             let mut x = relative_displacement(step, map, u);
-            for (c, x) in map.contacts.iter().zip(x.chunks_exact_mut(cone)) {
-                x[cone - 1] = c.gap;
-                take_off_turn(step, c, x);
+            for (c, x) in map.contacts.iter().zip(x.chunks_exact_mut(cone.dim())) {
+                x[cone.normal(0)] = c.gap;
+                take_off_turn(step, cone, c, x);
             }
             x
         }
@@ -30,7 +29,7 @@ pub(crate) fn local_variable(
             let start = relative_velocity(step, map, &step.now.v);
             let mut x = relative_velocity(step, map, v);
             for (k, c) in map.contacts.iter().enumerate() {
-                let n = cone * k + cone - 1;
+                let n = cone.normal(k);
                 x[n] += step.model.interfaces[c.interface].restitution * start[n].min(0.0);
             }
             x.iter_mut().for_each(|x| *x /= rate);
@@ -40,15 +39,14 @@ pub(crate) fn local_variable(
 }
 
 /// An open bond that turns as a whole does not slip: the node goes round with the normal, `g_0 (n_1 - n_0)`.
-fn take_off_turn(step: &StepProblem<'_>, contact: &Contact, x: &mut [f64]) {
+fn take_off_turn(step: &StepProblem<'_>, cone: Cone, contact: &Contact, x: &mut [f64]) {
     if step.model.interfaces[contact.interface].adhesion.is_none() {
         return;
     }
     let Some(before) = step.now.contact(contact.key()) else {
         return;
     };
-    let last = x.len() - 1;
-    for (x, axis) in x[..last].iter_mut().zip(local_axes(last + 1)) {
+    for (x, axis) in x[cone.tangents(0)].iter_mut().zip(cone.axes()) {
         let turn = contact.frame.column(*axis).dot(&before.frame.column(2));
         *x += before.gap.max(0.0) * turn;
     }
@@ -77,13 +75,4 @@ fn relative(map: &ContactMap, w: &[f64], obstacle: f64) -> Vec<f64> {
     let rows = x.iter_mut().zip(&offset);
     rows.for_each(|(x, o)| *x += obstacle * o);
     x
-}
-
-/// A local vector in `(t1, t2, n)`; tangents that it does not have are zero.
-pub(crate) fn spatial(x: &[f64]) -> [f64; 3] {
-    let mut full = [0.0; 3];
-    for (x, axis) in x.iter().zip(local_axes(x.len())) {
-        full[*axis] = *x;
-    }
-    full
 }

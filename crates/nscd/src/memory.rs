@@ -1,6 +1,5 @@
 //! What the contact solve remembers of every slave node, from iteration to iteration and from step to step.
 
-use contact_bipotential::local::local_axes;
 use contact_bipotential::{Cone, Contact, ContactKey, ContactMap};
 
 use crate::error::StepFailure;
@@ -40,12 +39,13 @@ impl ContactMemory {
 
     /// Starts a step from the forces of the last accepted one.
     pub(crate) fn restore(&mut self, now: &State) {
-        let cone = self.cone.dim();
+        let cone = self.cone;
         self.clear();
         self.losses.iter_mut().for_each(|l| l.fill(0));
         for c in &now.contacts {
-            for (i, &axis) in local_axes(cone).iter().enumerate() {
-                self.forces[c.interface][cone * c.slave_index + i] = c.force[axis];
+            let rows = &mut self.forces[c.interface][cone.range(c.slave_index)];
+            for (r, &axis) in rows.iter_mut().zip(cone.axes()) {
+                *r = c.force[axis];
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use contact_bipotential::{ContactMap, ContactProblem};
+use contact_bipotential::{Anderson, ContactMap, ContactProblem};
 
 use crate::accept::accept;
 use crate::body::BodySystem;
@@ -13,7 +13,6 @@ use crate::contact::ContactSolver;
 use crate::contact_stiffness::contact_stiffness;
 use crate::elements::Elements;
 use crate::error::{NscdError, StepFailure};
-use crate::extrapolation::Extrapolation;
 use crate::iterate::Iterate;
 use crate::local::local_variable;
 use crate::memory::{ContactMemory, refuse_chattering};
@@ -34,6 +33,10 @@ use crate::unsupported::refuse_unsupported;
 const SAME_TIME: f64 = 1e-9;
 /// Part of a correction below which it is not shortened further when it turns an element inside out \[-\].
 const SHORTEST: f64 = 0.1;
+/// Corrections of a step that Anderson's acceleration combines: with a lagged tangent they shrink by a nearly constant factor
+/// in a few directions. Displacements and contact forces are combined with the same weights, so that a balance that is linear
+/// in both stays one.
+const CORRECTIONS: usize = 5;
 
 /// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
 /// leaves the state as it was.
@@ -50,7 +53,7 @@ pub struct Stepper<'m> {
     overlap: OverlapCheck<'m>,
     memory: ContactMemory,
     contact: ContactSolver,
-    extrapolation: Extrapolation,
+    anderson: Anderson,
     tally: Tally,
 }
 
@@ -76,7 +79,7 @@ impl<'m> Stepper<'m> {
             overlap: OverlapCheck::new(model)?,
             memory: ContactMemory::new(model),
             contact: ContactSolver::default(),
-            extrapolation: Extrapolation::default(),
+            anderson: Anderson::new(CORRECTIONS),
             tally: Tally::new(clock),
         };
         let (search, tally) = (&mut stepper.search, &mut stepper.tally);
@@ -187,7 +190,7 @@ impl<'m> Stepper<'m> {
         self.memory.restore(now);
         self.contact.begin_step();
         self.search.reach_for_bonds(now);
-        self.extrapolation.forget();
+        self.anderson.forget();
     }
 
     fn predict(&mut self, step: &StepProblem<'_>) -> Result<Iterate, StepFailure> {
@@ -267,7 +270,7 @@ impl<'m> Stepper<'m> {
         if !stale.contains(&true) {
             return Ok(());
         }
-        self.extrapolation.forget();
+        self.anderson.forget();
         let start = self.tally.seconds();
         self.elements
             .update_tangents(&iterate.u)
@@ -382,7 +385,7 @@ impl<'m> Stepper<'m> {
     fn extrapolate(&mut self, iterate: &Iterate, z: &mut [f64]) {
         let mut corrected: Vec<f64> = iterate.u.iter().zip(&*z).map(|(u, z)| u + z).collect();
         corrected.extend(self.memory.flat_forces());
-        self.extrapolation.apply(&mut corrected, z);
+        self.anderson.extrapolate(&mut corrected, z);
         let (u, forces) = corrected.split_at(z.len());
         let nodes = z.iter_mut().zip(u.iter().zip(&iterate.u));
         nodes.for_each(|(z, (new, old))| *z = new - old);

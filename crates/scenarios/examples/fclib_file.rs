@@ -25,11 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{} contacts written and read back\n", read.contacts());
     println!("method                    status        iterations  error [-]  scale-free error [-]");
     for method in Method::ALL {
-        let settings = SolveSettings {
-            method,
-            tolerance: 1e-10,
-            ..SolveSettings::default()
-        };
+        let settings = SolveSettings::default().with_method(method);
         let mut reactions = vec![0.0; read.q.len()];
         let outcome = solve(&read, &mut reactions, &settings);
         println!(

@@ -71,11 +71,10 @@ const UNREADABLE: &str = "unreadable";
 
 /// Solves and prints; the exit code is 0 if all is solved, 1 if something is not, 2 if something cannot be read.
 pub(crate) fn run(arguments: &Arguments) -> ExitCode {
-    let settings = SolveSettings {
-        method: arguments.method,
-        tolerance: arguments.tol,
-        max_iterations: arguments.max_iterations as usize,
-    };
+    let settings = SolveSettings::default()
+        .with_method(arguments.method)
+        .with_tolerance(arguments.tol)
+        .with_max_iterations(arguments.max_iterations as usize);
     let clock = MeanClock::new();
     let mut rows = Vec::new();
     for path in &arguments.paths {
@@ -205,7 +204,7 @@ impl MeanClock {
         let mut runs = 1;
         let mut spent = clock.cpu_s();
         while spent < self.enough && runs < Self::MOST {
-            solve(problem, &mut Vec::new(), settings);
+            let _ = solve(problem, &mut Vec::new(), settings);
             runs += 1;
             spent = clock.cpu_s();
         }

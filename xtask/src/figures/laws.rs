@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use contact_bipotential::{Adhesion, Bond, BondStep};
+use nalgebra::Vector3;
 use scenarios::output::{Axis, Band, Chart, Curve, MapFrame, Maps, charts_svg, maps_svg};
 
 use super::Figure;
@@ -99,18 +100,21 @@ fn pull(law: &Adhesion, de: f64, direction: [f64; 3]) -> Pull {
     for k in DECADES[0] * PER_DECADE..=DECADES[1] * PER_DECADE {
         let distance = x0 * 10_f64.powf(f64::from(k) / f64::from(PER_DECADE));
         let moved = distance - last;
-        let x = [
+        let x = Vector3::new(
             moved * direction[0],
             moved * direction[1],
             distance * direction[2],
-        ];
+        );
         let step = BondStep::new(&law, 1.0, moved / speed, bond, 0.0);
         bond = step.finish(&x);
         let holds = bond.intensity > 0.0;
         pull.distance.push(distance);
         pull.beta.push(bond.intensity);
-        pull.traction
-            .push(if holds { step.at(&x).force } else { [0.0; 3] });
+        pull.traction.push(if holds {
+            step.at(&x).force.into()
+        } else {
+            [0.0; 3]
+        });
         last = distance;
     }
     pull

@@ -38,13 +38,13 @@ pub enum Update {
 /// Parameters of the adhesion of an interface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adhesion {
-    /// `C_n`: force per area and gap of intact bonds [N/m^3], >= 0.
+    /// `C_n`: force per area and gap of intact bonds \[N/m^3\], >= 0.
     pub normal_stiffness: f64,
-    /// `C_t` along `t1` and `t2`: force per area and separation of intact bonds [N/m^3], >= 0.
+    /// `C_t` along `t1` and `t2`: force per area and separation of intact bonds \[N/m^3\], >= 0.
     pub tangential_stiffness: [f64; 2],
-    /// `w`: work per area that separation takes [J/m^2], >= 0.
+    /// `w`: work per area that separation takes \[J/m^2\], >= 0.
     pub energy: f64,
-    /// `b`: viscosity of breaking and healing [N s/m], >= 0; 0 is the rate-independent limit.
+    /// `b`: viscosity of breaking and healing \[N s/m\], >= 0; 0 is the rate-independent limit.
     pub viscosity: f64,
     /// `epsilon`: below this intensity a bond that has parted counts as broken \[-\], in (0, 1).
     pub threshold: f64,
@@ -64,6 +64,7 @@ pub struct Adhesion {
 
 impl Adhesion {
     /// Recoverable adhesion with the defaults of \[Hu2022\]: bonds start at zero and form in contact only.
+    #[must_use]
     pub fn new(normal: f64, tangential: f64, energy: f64, viscosity: f64) -> Self {
         Self {
             normal_stiffness: normal,
@@ -128,6 +129,7 @@ impl Adhesion {
     }
 
     /// `sqrt(w / C_n)`: the gap at which intact bonds start to break \[m\].
+    #[must_use]
     pub fn damage_gap(&self) -> f64 {
         let stiffness = self
             .tangential_stiffness
@@ -142,6 +144,7 @@ impl Adhesion {
 
     /// The intensity that a bond at rest at the gap `x_n` \[m\] starts with at most \[-\]: `min(1, w/k)` if `b = 0`, else 1,
     /// which takes time to fall.
+    #[must_use]
     pub fn lasting(&self, gap: f64) -> f64 {
         let k = self.strain(&[0.0; 2], gap);
         if self.viscosity > 0.0 || k <= self.energy {
@@ -152,11 +155,12 @@ impl Adhesion {
     }
 
     /// Whether bonds resist slip.
+    #[must_use]
     pub fn is_tangential(&self) -> bool {
         self.tangential_stiffness != [0.0; 2]
     }
 
-    /// `k` [J/m^2].
+    /// `k` \[J/m^2\].
     pub(super) fn strain(&self, separation: &[f64; 2], gap: f64) -> f64 {
         let [t1, t2] = self.tangential_stiffness;
         self.normal_stiffness * gap * gap

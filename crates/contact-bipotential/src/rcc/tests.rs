@@ -27,7 +27,7 @@ fn follow(
     let mut sum = BondEnergy::default();
     for k in 0..steps {
         let (from, to) = (path(k as f64 * dt), path((k + 1) as f64 * dt));
-        let x = [to[0] - from[0], to[1] - from[1], to[2]];
+        let x = Vector3::new(to[0] - from[0], to[1] - from[1], to[2]);
         let step = BondStep::new(law, 1.0, dt, at, 0.0);
         let energy = step.energy(&x);
         sum.work += energy.work;
@@ -142,7 +142,7 @@ fn healing_needs_contact_and_a_law_that_heals() {
     let law = law();
     let parted = |law: &Adhesion, gap| {
         BondStep::new(law, 1.0, 1e-3, bond(0.2, gap, [0.0; 2]), 0.0)
-            .intensity(&[0.0, 0.0, gap])
+            .intensity(&Vector3::new(0.0, 0.0, gap))
             .0
     };
     assert!(parted(&law, 0.0) > 0.3);
@@ -163,7 +163,7 @@ fn healing_needs_contact_and_a_law_that_heals() {
 #[test]
 fn a_parted_broken_bond_forgets_and_an_ageing_one_relaxes() {
     let law = law();
-    let far = [0.0, 0.0, 0.1];
+    let far = Vector3::new(0.0, 0.0, 0.1);
     let step = BondStep::new(&law, 1.0, 1.0, bond(0.5, 1e-3, [1e-4, 0.0]), 0.0);
     assert_eq!(step.finish(&far), bond(0.0, 0.1, [0.0; 2]));
     let ageing = Adhesion {
@@ -180,7 +180,10 @@ fn a_parted_broken_bond_forgets_and_an_ageing_one_relaxes() {
     );
     // New bonds are unstressed.
     let new = BondStep::new(&ageing, 1.0, 1e-3, Bond::default(), 0.0);
-    assert_eq!(new.finish(&[1e-5, 0.0, 0.0]).separation, [0.0; 2]);
+    assert_eq!(
+        new.finish(&Vector3::new(1e-5, 0.0, 0.0)).separation,
+        [0.0; 2]
+    );
 }
 
 #[test]
@@ -192,10 +195,10 @@ fn a_bond_that_never_formed_takes_any_slip() {
         ..law()
     };
     let step = BondStep::new(&law, 1.0, 1e-3, bond(0.0, 0.0, [0.0; 2]), 0.0);
-    let slip = [45.0, -1e9, 0.0];
+    let slip = Vector3::new(45.0, -1e9, 0.0);
     let energy = step.energy(&slip);
     assert_eq!([energy.work, energy.stored, energy.dissipated], [0.0; 3]);
-    assert_eq!(step.at(&slip).force.map(f64::abs), [0.0; 3]);
+    assert_eq!(step.at(&slip).force.abs(), Vector3::zeros());
 }
 
 #[test]
@@ -299,7 +302,7 @@ proptest! {
     fn intensity_stays_in_bounds_and_dissipation_is_never_negative(
         law in laws(), start in bonds(), logdt in -9.0..0.0_f64, x in prop::array::uniform3(-3e-4..3e-4_f64), closed in any::<bool>(),
     ) {
-        let x = [x[0], x[1], if closed { 0.0 } else { x[2] }];
+        let x = Vector3::new(x[0], x[1], if closed { 0.0 } else { x[2] });
         let step = BondStep::new(&law, 1e-7, 10.0_f64.powf(logdt), start, 0.0);
         let (beta, _) = step.intensity(&x);
         prop_assert!((0.0..=1.0).contains(&beta), "{beta}");
@@ -317,10 +320,11 @@ proptest! {
     fn stiffness_is_the_derivative_of_the_force(
         law in laws(), start in bonds(), logdt in -6.0..-1.0_f64, x in prop::array::uniform3(-3e-4..3e-4_f64),
     ) {
+        let x = Vector3::from(x);
         let step = BondStep::new(&law, 1e-7, 10.0_f64.powf(logdt), start, 0.0);
         let at = step.at(&x);
         let h = 1e-9;
-        let smooth = |f: &dyn Fn(&[f64; 3]) -> f64, j: usize| {
+        let smooth = |f: &dyn Fn(&Vector3<f64>) -> f64, j: usize| {
             let moved = |s: f64| { let mut y = x; y[j] += s * h; f(&y) };
             ((moved(1.0) - moved(-1.0)) / (2.0 * h), (moved(1.0) - 2.0 * f(&x) + moved(-1.0)).abs() / h)
         };
@@ -332,7 +336,7 @@ proptest! {
             for i in 0..3 {
                 let (slope, bend) = smooth(&|y| step.at(y).force[i], j);
                 prop_assume!(bend < 1e-4 * size);
-                prop_assert!((slope + at.stiffness[i][j]).abs() < 1e-4 * size, "{i}{j}: {slope} {}", -at.stiffness[i][j]);
+                prop_assert!((slope + at.stiffness[(i, j)]).abs() < 1e-4 * size, "{i}{j}: {slope} {}", -at.stiffness[(i, j)]);
             }
         }
     }

@@ -9,7 +9,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
 use crate::delassus::BlockSparse;
-use crate::local::{Matrix, Vector, inverse, times};
+use crate::local::{Matrix, Vector, inverse, load, store};
 
 /// A block padded to four columns, so that a row of it is one vector register.
 type Padded = [[f64; 4]; 3];
@@ -34,7 +34,41 @@ struct Pattern {
     columns: Vec<u32>,
 }
 
+/// No row.
+const NONE: u32 = u32::MAX;
+
 impl Pattern {
+    /// Adds the entry `(k, column)` to the last row `k` if it stands right of the diagonal and is not there yet.
+    #[inline(always)]
+    fn add(&mut self, k: usize, column: u32, mark: &mut [u32]) {
+        if column as usize > k && mark[column as usize] != k as u32 {
+            mark[column as usize] = k as u32;
+            self.columns.push(column);
+        }
+    }
+
+    /// Becomes the transpose of a square pattern; columns ascend in each row.
+    fn transpose_of(&mut self, other: &Pattern) {
+        let n = other.offsets.len() - 1;
+        let mut next = vec![0usize; n + 1];
+        for column in &other.columns {
+            next[*column as usize + 1] += 1;
+        }
+        for k in 0..n {
+            next[k + 1] += next[k];
+        }
+        self.offsets.clone_from(&next);
+        self.columns.clear();
+        self.columns.resize(next[n], 0);
+        for k in 0..n {
+            for column in &other.columns[other.range(k)] {
+                let p = *column as usize;
+                self.columns[next[p]] = k as u32;
+                next[p] += 1;
+            }
+        }
+    }
+
     #[inline(always)]
     fn range(&self, k: usize) -> std::ops::Range<usize> {
         self.offsets[k]..self.offsets[k + 1]
@@ -65,7 +99,7 @@ impl<const D: usize> BlockLu<D> {
             lower: Pattern::default(),
             u: Vec::new(),
             l: Vec::new(),
-            pivots: vec![[[0.0; D]; D]; n],
+            pivots: vec![Matrix::zeros(); n],
             work: vec![[[0.0; 4]; 3]; n],
         }
     }
@@ -84,7 +118,7 @@ impl<const D: usize> BlockLu<D> {
                 let slot = &mut work[place[c] as usize];
                 for a in 0..D {
                     for b in 0..D {
-                        slot[a][b] += block[a][b];
+                        slot[a][b] += block[(a, b)];
                     }
                 }
             });
@@ -106,7 +140,7 @@ impl<const D: usize> BlockLu<D> {
             for a in 0..D {
                 for b in 0..D {
                     for m in 0..D {
-                        l[a][b] += x[a][m] * self.pivots[k][m][b];
+                        l[a][b] += x[a][m] * self.pivots[k][(m, b)];
                     }
                 }
             }
@@ -126,11 +160,7 @@ impl<const D: usize> BlockLu<D> {
             );
         }
         let d = std::mem::replace(&mut self.work[i], [[0.0; 4]; 3]);
-        let mut pivot = [[0.0; D]; D];
-        for a in 0..D {
-            pivot[a].copy_from_slice(&d[a][..D]);
-        }
-        match inverse(&pivot) {
+        match inverse(&Matrix::from_fn(|a, b| d[a][b])) {
             Some(inv) => {
                 self.pivots[i] = inv;
                 true
@@ -142,11 +172,10 @@ impl<const D: usize> BlockLu<D> {
     /// Overwrites the right side with the solution.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         let n = self.order.len();
-        let mut y = vec![[0.0; D]; n];
+        let mut y = vec![Vector::zeros(); n];
         for i in 0..n {
             let c = self.order[i] as usize;
-            let mut s: Vector<D> = [0.0; D];
-            s.copy_from_slice(&x[c * D..c * D + D]);
+            let mut s = load::<D>(x, c);
             for at in self.lower.range(i) {
                 subtract(&mut s, &self.l[at], &y[self.lower.columns[at] as usize]);
             }
@@ -157,9 +186,8 @@ impl<const D: usize> BlockLu<D> {
             for at in self.upper.range(i) {
                 subtract(&mut s, &self.u[at], &y[self.upper.columns[at] as usize]);
             }
-            y[i] = times(&self.pivots[i], &s);
-            let c = self.order[i] as usize;
-            x[c * D..c * D + D].copy_from_slice(&y[i]);
+            y[i] = self.pivots[i] * s;
+            store(x, self.order[i] as usize, &y[i]);
         }
     }
 
@@ -170,31 +198,23 @@ impl<const D: usize> BlockLu<D> {
         upper.offsets.clear();
         upper.offsets.push(0);
         upper.columns.clear();
-        let mut mark = vec![u32::MAX; n];
-        let (mut first_child, mut next_sibling) = (vec![u32::MAX; n], vec![u32::MAX; n]);
-        let mut count = vec![0usize; n + 1];
+        let mut mark = vec![NONE; n];
+        let (mut first_child, mut next_sibling) = (vec![NONE; n], vec![NONE; n]);
         for k in 0..n {
             let c = self.order[k] as usize;
             let start = upper.columns.len();
             mark[k] = k as u32;
             if !rows.is_alone(c) {
                 for &j in w.row(c) {
-                    let p = self.place[j as usize];
-                    if p as usize > k && mark[p as usize] != k as u32 && !rows.is_alone(j as usize)
-                    {
-                        mark[p as usize] = k as u32;
-                        upper.columns.push(p);
+                    if !rows.is_alone(j as usize) {
+                        upper.add(k, self.place[j as usize], &mut mark);
                     }
                 }
             }
             let mut child = first_child[k];
-            while child != u32::MAX {
+            while child != NONE {
                 for at in upper.range(child as usize) {
-                    let p = upper.columns[at];
-                    if p as usize > k && mark[p as usize] != k as u32 {
-                        mark[p as usize] = k as u32;
-                        upper.columns.push(p);
-                    }
+                    upper.add(k, upper.columns[at], &mut mark);
                 }
                 child = next_sibling[child as usize];
             }
@@ -203,24 +223,9 @@ impl<const D: usize> BlockLu<D> {
                 next_sibling[k] = first_child[parent as usize];
                 first_child[parent as usize] = k as u32;
             }
-            for &p in &upper.columns[start..] {
-                count[p as usize + 1] += 1;
-            }
             upper.offsets.push(upper.columns.len());
         }
-        for k in 0..n {
-            count[k + 1] += count[k];
-        }
-        self.lower.offsets.clone_from(&count);
-        self.lower.columns.clear();
-        self.lower.columns.resize(count[n], 0);
-        for k in 0..n {
-            for at in self.upper.range(k) {
-                let p = self.upper.columns[at] as usize;
-                self.lower.columns[count[p]] = k as u32;
-                count[p] += 1;
-            }
-        }
+        self.lower.transpose_of(&self.upper);
     }
 }
 
@@ -274,25 +279,16 @@ fn minimum_degree(w: &BlockSparse) -> Option<Vec<u32>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::local::load_block;
 
     struct All<'a>(&'a BlockSparse, Vec<bool>);
     impl BlockRows<3> for All<'_> {
         fn row(&self, c: usize, mut put: impl FnMut(usize, &Matrix<3>)) {
-            for (&j, block) in self
-                .0
-                .row(c)
-                .iter()
-                .zip(self.0.row_values(c).chunks_exact(9))
-            {
-                let alone = self.1[c] || self.1[j as usize];
-                if alone && j as usize != c {
+            for (j, block) in self.0.blocks(c) {
+                if (self.1[c] || self.1[j]) && j != c {
                     continue;
                 }
-                let mut m = [[0.0; 3]; 3];
-                for i in 0..3 {
-                    m[i].copy_from_slice(&block[3 * i..3 * i + 3]);
-                }
-                put(j as usize, &m);
+                put(j, &load_block(block));
             }
         }
         fn is_alone(&self, c: usize) -> bool {
@@ -325,7 +321,7 @@ mod tests {
                 rows.row(c, |j, m| {
                     for i in 0..3 {
                         for k in 0..3 {
-                            b[3 * c + i] += m[i][k] * x[3 * j + k];
+                            b[3 * c + i] += m[(i, k)] * x[3 * j + k];
                         }
                     }
                 });

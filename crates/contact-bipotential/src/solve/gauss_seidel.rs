@@ -1,15 +1,21 @@
 //! Sweeps over the contacts, each solved with the others held.
 
-use crate::delassus::Delassus;
-use crate::local::{Matrix, Vector, load, store, trace};
+use crate::delassus::{Delassus, DenseMatrix};
+use crate::error_measure::ErrorMeasure;
+use crate::local::{Matrix, Vector, load, store};
 use crate::problem::ContactProblem;
 use crate::rcc::BondStep;
-use crate::solve::bonded::bonded_contact;
-use crate::solve::iterate::{Iterate, Work};
+use crate::solve::acceleration::Acceleration;
+use crate::solve::bonded_contact::bonded_contact;
+use crate::solve::iterate::Iterate;
 use crate::solve::local_newton::{joli_feng, predict_correct};
-use crate::solve::mixing::Mixer;
+use crate::solve::outcome::Work;
 use crate::solve::single::SingleContact;
-use crate::truth::Truth;
+
+/// Sweeps after which the error is measured less often, and the symmetric sweeps between two measurements then: a
+/// measurement costs about as much as a sweep.
+const MANY: usize = 20;
+const PAIRS: usize = 5;
 
 /// How one contact is solved while the others are held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,10 +70,7 @@ impl<'a, const D: usize> Sweeper<'a, D> {
             let c = if backwards { n - 1 - k } else { k };
             match &self.problem.w {
                 Delassus::BlockSparse(w) => {
-                    let mut b = w.row_times::<D>(c, r);
-                    for i in 0..D {
-                        b[i] += self.problem.q[c * D + i];
-                    }
+                    let b = w.row_times::<D>(c, r) + load::<D>(&self.problem.q, c);
                     if let Some((new, _)) = self.relax(c, &load(r, c), b) {
                         store(r, c, &new);
                     }
@@ -89,37 +92,32 @@ impl<'a, const D: usize> Sweeper<'a, D> {
         let w = &self.diagonals[c];
         for i in 0..D {
             for j in 0..D {
-                b[i] -= w[i][j] * r[j];
+                b[i] -= w[(i, j)] * r[j];
             }
         }
         let mu = self.problem.mu[c];
-        let scale = trace(w) / D as f64;
+        let scale = w.trace() / D as f64;
         let new = match self.kernel {
             Kernel::Exact if !self.bonds.is_empty() => bonded_contact(w, &b, mu, &self.bonds[c]),
             Kernel::Exact => self.blocks[c].solve(&b, mu).r,
             Kernel::PredictCorrect => predict_correct(w, scale, &b, mu, r),
             Kernel::JoliFeng => joli_feng(w, scale, &b, mu, r),
         };
-        let mut step = new;
-        let (mut moved, mut sum) = (false, 0.0);
-        for i in 0..D {
-            step[i] -= r[i];
-            moved |= step[i] != 0.0;
-            sum += new[i];
-        }
-        (moved && sum.is_finite()).then_some((new, step))
+        let step = new - r;
+        let moved = step.iter().any(|x| *x != 0.0);
+        (moved && new.sum().is_finite()).then_some((new, step))
     }
 
-    /// Two sweeps, there and back.
-    pub(crate) fn there_and_back(&self, x: &mut Iterate) {
+    /// A symmetric sweep: forwards, then backwards.
+    pub(crate) fn symmetric_sweep(&self, x: &mut Iterate) {
         self.sweep(&mut x.r, &mut x.u, false);
         self.sweep(&mut x.r, &mut x.u, true);
     }
 
-    /// Sweeps until `best` is within `tolerance` or `budget` sweeps are done; the true error is measured every few sweeps.
+    /// Sweeps until `best` is within `tolerance` or `budget` sweeps are done; the error is measured every few sweeps.
     pub(crate) fn run(
         &self,
-        truth: &Truth<'_>,
+        measure: &ErrorMeasure<'_>,
         best: &mut Iterate,
         tolerance: f64,
         budget: usize,
@@ -128,53 +126,42 @@ impl<'a, const D: usize> Sweeper<'a, D> {
         let mut x = best.clone();
         let mut done = 0;
         while done < budget && !best.is_within(tolerance) {
-            let pairs = if done < 20 { 1 } else { 5 };
+            let pairs = if done < MANY { 1 } else { PAIRS };
             for _ in 0..pairs {
-                self.there_and_back(&mut x);
+                self.symmetric_sweep(&mut x);
             }
             done += 2 * pairs;
-            x.refresh(truth);
+            x.refresh(measure);
             best.keep_better(&x);
         }
         work.sweeps += done;
     }
 
-    /// Sweeps whose sequence is extrapolated by Anderson's method, safeguarded by the true error.
-    pub(crate) fn run_mixed(
+    /// Sweeps whose sequence is extrapolated by Anderson's method, safeguarded by the recomputed error.
+    pub(crate) fn run_accelerated(
         &self,
-        truth: &Truth<'_>,
+        measure: &ErrorMeasure<'_>,
         best: &mut Iterate,
         tolerance: f64,
         budget: usize,
         work: &mut Work,
     ) {
         let mut x = best.clone();
-        let mut mixer = Mixer::new(truth);
+        let mut acceleration = Acceleration::new();
         let mut done = 0;
         while done < budget && !best.is_within(tolerance) {
             let before = x.r.clone();
-            self.there_and_back(&mut x);
-            x.refresh(truth);
+            self.symmetric_sweep(&mut x);
+            x.refresh(measure);
             done += 2;
-            let mut improved = best.keep_better(&x);
-            let plain = x.errors.scale_free;
-            if let Some(mixed) = mixer.mix(&before, &x.r) {
-                let swept = x.clone();
-                x.r = mixed;
-                x.refresh(truth);
-                improved |= best.keep_better(&x);
-                if x.errors.scale_free > 2.0 * plain {
-                    x = swept;
-                    mixer.forget();
-                }
-            }
-            mixer.note(improved);
+            let improved = best.keep_better(&x);
+            acceleration.accelerate(measure, &before, &mut x, best, improved);
         }
         work.sweeps += done;
     }
 }
 
-fn add_columns<const D: usize>(w: &faer::Mat<f64>, c: usize, step: &Vector<D>, u: &mut [f64]) {
+fn add_columns<const D: usize>(w: &DenseMatrix, c: usize, step: &Vector<D>, u: &mut [f64]) {
     let mut columns = [w.col_as_slice(c * D); D];
     for i in 1..D {
         columns[i] = w.col_as_slice(c * D + i);

@@ -1,6 +1,11 @@
-//! A candidate with everything that was measured about it.
+//! Reactions with everything that was measured about them.
 
-use crate::truth::{Errors, Truth};
+use crate::error_measure::{ErrorMeasure, Errors};
+
+/// Halvings of a Newton step that are tried.
+const HALVINGS: usize = 7;
+/// Part of the error, times the length of the step, that a step must take off to be taken at once \[-\].
+const DECREASE: f64 = 0.1;
 
 /// Reactions, the velocities that belong to them, and their errors.
 #[derive(Debug, Clone)]
@@ -11,9 +16,9 @@ pub(crate) struct Iterate {
 }
 
 impl Iterate {
-    pub(crate) fn new(truth: &Truth<'_>, r: &[f64]) -> Self {
+    pub(crate) fn new(measure: &ErrorMeasure<'_>, r: &[f64]) -> Self {
         let mut u = vec![0.0; r.len()];
-        let errors = truth.evaluate(r, &mut u);
+        let errors = measure.evaluate(r, &mut u);
         Iterate {
             r: r.to_vec(),
             u,
@@ -22,8 +27,8 @@ impl Iterate {
     }
 
     /// Recomputes `u` and the errors from `r`.
-    pub(crate) fn refresh(&mut self, truth: &Truth<'_>) {
-        self.errors = truth.evaluate(&self.r, &mut self.u);
+    pub(crate) fn refresh(&mut self, measure: &ErrorMeasure<'_>) {
+        self.errors = measure.evaluate(&self.r, &mut self.u);
     }
 
     pub(crate) fn is_within(&self, tolerance: f64) -> bool {
@@ -38,15 +43,26 @@ impl Iterate {
         }
         better
     }
-}
 
-/// What the methods did together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Passes over all contacts.
-    pub sweeps: usize,
-    /// Newton steps, one factorisation each.
-    pub newton_steps: usize,
-    /// Steps of the global predictor-corrector.
-    pub projections: usize,
+    /// The first of `r + dr`, `r + dr/2`, .. that lowers the error, or the best of them.
+    pub(crate) fn backtrack(&self, measure: &ErrorMeasure<'_>, dr: &[f64]) -> Iterate {
+        let mut x = self.clone();
+        let mut best: Option<Iterate> = None;
+        let mut t = 1.0;
+        for _ in 0..HALVINGS {
+            for i in 0..dr.len() {
+                x.r[i] = self.r[i] + t * dr[i];
+            }
+            x.refresh(measure);
+            if x.errors.scale_free < (1.0 - DECREASE * t) * self.errors.scale_free {
+                return x;
+            }
+            match &mut best {
+                Some(b) if b.errors.scale_free <= x.errors.scale_free => {}
+                _ => best = Some(x.clone()),
+            }
+            t *= 0.5;
+        }
+        best.unwrap_or(x)
+    }
 }

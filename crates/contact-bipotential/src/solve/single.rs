@@ -10,17 +10,26 @@ mod slip_root;
 
 use crate::cone;
 use crate::law::{Status, natural_map};
-use crate::local::{
-    Matrix, Vector, affine, inverse, max_abs, solve_small, tangential_norm, times, trace,
-};
+use crate::local::{Matrix, Vector, inverse, solve_small, tangential_norm};
 
 use slip_root::SlipRoot;
 
-/// Largest accepted scale-free residual of a contact that is called solved.
+/// Largest accepted scale-free residual of a contact that is called solved \[-\].
 const SOLVED: f64 = 1e-13;
+/// Scale-free residual that rounding leaves anyway \[-\]: two units in the last place.
+const ROUNDED: f64 = 4e-16;
+/// Change of a refined reaction that is rounding \[-\].
+const REFINED: f64 = 1e-15;
+/// Entries over the mean diagonal up to which scaling back cannot round the solution away \[-\].
+const LARGEST_ENTRY: f64 = 1e20;
+/// Newton steps on the slip equations: two are the rule.
+const POLISHING_STEPS: usize = 4;
+/// Projections from each start of the last resort.
+const PROJECTIONS: usize = 200;
 
 /// One solved contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SingleSolution<const D: usize> {
     /// Reaction, always finite.
     pub r: Vector<D>,
@@ -30,6 +39,18 @@ pub struct SingleSolution<const D: usize> {
     pub solved: bool,
 }
 
+impl<const D: usize> SingleSolution<D> {
+    /// No reaction.
+    #[inline(always)]
+    fn free(solved: bool) -> Self {
+        SingleSolution {
+            r: Vector::zeros(),
+            status: Status::Separate,
+            solved,
+        }
+    }
+}
+
 /// The compliance of one contact with everything that does not depend on `b`, ready for many solutions.
 #[derive(Debug, Clone)]
 pub struct SingleContact<const D: usize> {
@@ -37,7 +58,7 @@ pub struct SingleContact<const D: usize> {
     w: Matrix<D>,
     scale: f64,
     /// No entry is far above the diagonal.
-    tame: bool,
+    balanced: bool,
     stick: Option<Matrix<D>>,
     slip: Reduced,
 }
@@ -54,73 +75,55 @@ struct Reduced {
 
 impl<const D: usize> SingleContact<D> {
     /// Prepares the compliance `w`, unit of `u` over unit of `r`.
+    #[must_use]
     pub fn new(w: &Matrix<D>) -> Self {
-        let mean = trace(w) / D as f64;
+        let mean = w.trace() / D as f64;
         let scale = if mean.is_finite() && mean > 0.0 {
             power_of_two(mean)
         } else {
             1.0
         };
-        let (mut wn, inverse_scale) = (*w, 1.0 / scale);
-        for x in wn.iter_mut().flatten() {
-            *x *= inverse_scale;
-        }
-        let tame = wn.iter().all(|row| row.iter().all(|x| x.abs() <= 1e20));
+        let wn = w * (1.0 / scale);
         SingleContact {
             w: wn,
             scale,
-            tame,
+            balanced: wn.iter().all(|x| x.abs() <= LARGEST_ENTRY),
             stick: inverse(&wn),
             slip: Reduced::new(&wn),
         }
     }
 
     /// A power of two near the mean diagonal of `W`, the compliance scale of this contact.
+    #[must_use]
     pub fn scale(&self) -> f64 {
         self.scale
     }
 
     /// The reaction under the free velocity `b`.
     #[inline]
+    #[must_use]
     pub fn solve(&self, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
         if b[D - 1] >= 0.0 {
-            return SingleSolution {
-                r: [0.0; D],
-                status: Status::Separate,
-                solved: b.iter().all(|x| x.is_finite()),
-            };
+            return SingleSolution::free(b.iter().all(|x| x.is_finite()));
         }
         if !b.iter().all(|x| x.is_finite()) {
-            return SingleSolution {
-                r: [0.0; D],
-                status: Status::Separate,
-                solved: false,
-            };
+            return SingleSolution::free(false);
         }
         // Scaling by powers of two rounds nothing: what holds for the unit contact holds for this one.
-        let size = power_of_two(max_abs(b));
-        let (mut unit, inverse_size) = (*b, 1.0 / size);
-        for x in &mut unit {
-            *x *= inverse_size;
-        }
-        let mut s = self.solve_scaled(&unit, mu);
+        let size = power_of_two(b.amax());
+        let mut s = self.solve_scaled(&(b * (1.0 / size)), mu);
         let ratio = size / self.scale;
-        for x in &mut s.r {
-            // A ratio out of range does not mean that the reaction is.
-            *x = if ratio.is_normal() {
-                *x * ratio
-            } else {
-                *x * size / self.scale
-            };
-        }
-        let largest = max_abs(&s.r);
+        // A ratio out of range does not mean that the reaction is.
+        s.r = if ratio.is_normal() {
+            s.r * ratio
+        } else {
+            s.r * size / self.scale
+        };
+        let largest = s.r.amax();
         if !s.r.iter().all(|x| x.is_finite()) {
-            s = SingleSolution {
-                r: [0.0; D],
-                status: s.status,
-                solved: false,
-            };
-        } else if !(ratio.is_normal() && self.tame && largest >= f64::MIN_POSITIVE) {
+            s.r = Vector::zeros();
+            s.solved = false;
+        } else if !(ratio.is_normal() && self.balanced && largest >= f64::MIN_POSITIVE) {
             // The way back may have rounded: judge what is returned.
             s.solved &= self.residual_of(b, &s.r, mu) <= SOLVED;
         }
@@ -159,13 +162,13 @@ impl<const D: usize> SingleContact<D> {
 
     #[inline]
     fn frictionless(&self, b: &Vector<D>) -> SingleSolution<D> {
-        let mut r = [0.0; D];
-        let wnn = self.w[D - 1][D - 1];
+        let mut r = Vector::zeros();
+        let wnn = self.w[(D - 1, D - 1)];
         if wnn > 0.0 {
             r[D - 1] = -b[D - 1] / wnn;
         }
         let solved = self.residual(&r, b, 0.0) <= SOLVED;
-        let status = if tangential_norm(&affine(&self.w, &r, b)) == 0.0 {
+        let status = if tangential_norm(&self.u(&r, b)) == 0.0 {
             Status::Stick
         } else {
             Status::Slip
@@ -173,24 +176,25 @@ impl<const D: usize> SingleContact<D> {
         SingleSolution { r, status, solved }
     }
 
+    /// `W r + b`, scaled.
+    #[inline(always)]
+    fn u(&self, r: &Vector<D>, b: &Vector<D>) -> Vector<D> {
+        self.w * r + b
+    }
+
     /// `-W^-1 b` if it lies in the cone; one step of refinement keeps it exact when `W` is ill-conditioned.
     #[inline]
     fn stuck(&self, b: &Vector<D>, mu: f64) -> Option<Vector<D>> {
         let inv = self.stick.as_ref()?;
-        let mut r = times(inv, b);
-        for x in &mut r {
-            *x = -*x;
-        }
+        let mut r = -(inv * b);
         // Far outside: not worth refining.
         if tangential_norm(&r) > 2.0 * mu * r[D - 1].abs() {
             return None;
         }
         for _ in 0..2 {
-            let step = times(inv, &affine(&self.w, &r, b));
-            for i in 0..D {
-                r[i] -= step[i];
-            }
-            if max_abs(&step) <= 1e-15 * max_abs(&r) {
+            let step = inv * self.u(&r, b);
+            r -= step;
+            if step.amax() <= REFINED * r.amax() {
                 break;
             }
         }
@@ -200,10 +204,10 @@ impl<const D: usize> SingleContact<D> {
     #[inline]
     fn slide_plane(&self, b: &Vector<D>, mu: f64) -> Vector<D> {
         let n = D - 1;
-        let mut r = [0.0; D];
+        let mut r = Vector::zeros();
         // Friction opposes the velocity that the tangent would take without it.
-        let sign = -(b[0] - self.w[0][n] * b[n] * self.slip.inv_wnn).signum();
-        let denominator = self.w[n][n] + sign * mu * self.w[n][0];
+        let sign = -(b[0] - self.w[(0, n)] * b[n] * self.slip.inv_wnn).signum();
+        let denominator = self.w[(n, n)] + sign * mu * self.w[(n, 0)];
         if denominator > 0.0 {
             r[n] = -b[n] / denominator;
             r[0] = sign * mu * r[n];
@@ -216,15 +220,15 @@ impl<const D: usize> SingleContact<D> {
         let n = D - 1;
         let s = &self.slip;
         let c = [
-            b[0] - self.w[0][n] * b[n] * s.inv_wnn,
-            b[1] - self.w[1][n] * b[n] * s.inv_wnn,
+            b[0] - self.w[(0, n)] * b[n] * s.inv_wnn,
+            b[1] - self.w[(1, n)] * b[n] * s.inv_wnn,
         ];
         let p = [
             s.w[1][1] * c[0] - s.w[0][1] * c[1],
             s.w[0][0] * c[1] - s.w[1][0] * c[0],
         ];
-        let wc = self.w[n][0] * c[0] + self.w[n][1] * c[1];
-        let wp = self.w[n][0] * p[0] + self.w[n][1] * p[1];
+        let wc = self.w[(n, 0)] * c[0] + self.w[(n, 1)] * c[1];
+        let wp = self.w[(n, 0)] * p[0] + self.w[(n, 1)] * p[1];
         let k = mu * s.inv_wnn;
         let root = SlipRoot {
             p,
@@ -237,9 +241,9 @@ impl<const D: usize> SingleContact<D> {
         let v = [p[0] + a * c[0], p[1] + a * c[1]];
         let length = (v[0] * v[0] + v[1] * v[1]).sqrt();
         let det = s.det + a * (s.trace + a);
-        let mut r = [0.0; D];
+        let mut r = Vector::<D>::zeros();
         if det > 0.0 && length > 0.0 {
-            r[n] = (-b[n] + (self.w[n][0] * v[0] + self.w[n][1] * v[1]) / det) * s.inv_wnn;
+            r[n] = (-b[n] + (self.w[(n, 0)] * v[0] + self.w[(n, 1)] * v[1]) / det) * s.inv_wnn;
             for i in 0..2 {
                 r[i] = -mu * r[n] * v[i] / length;
             }
@@ -247,36 +251,29 @@ impl<const D: usize> SingleContact<D> {
         if r.iter().all(|x| x.is_finite()) {
             r
         } else {
-            [0.0; D]
+            Vector::zeros()
         }
     }
 
     /// Scale-free residual: `F` with `rho = 1` over the largest of `b`, `r`, `u`.
     #[inline]
     fn residual(&self, r: &Vector<D>, b: &Vector<D>, mu: f64) -> f64 {
-        residual(mu, &affine(&self.w, r, b), r)
+        residual(mu, &self.u(r, b), r)
     }
 
     /// [`single_residual`] of a reaction in the units of the problem.
     fn residual_of(&self, b: &Vector<D>, r: &Vector<D>, mu: f64) -> f64 {
-        let size = power_of_two(max_abs(b));
+        let size = power_of_two(b.amax());
         let ratio = self.scale / size;
-        let (mut unit, mut reaction) = (*b, *r);
-        for i in 0..D {
-            unit[i] /= size;
-            reaction[i] = if ratio.is_normal() {
-                r[i] * ratio
-            } else {
-                r[i] / size * self.scale
-            };
-        }
-        // No reaction: u = b, even where W over its scale overflows.
-        let free = max_abs(&reaction) == 0.0;
-        let u = if free {
-            unit
+        let unit = b / size;
+        let reaction = if ratio.is_normal() {
+            r * ratio
         } else {
-            affine(&self.w, &reaction, &unit)
+            r / size * self.scale
         };
+        // No reaction: u = b, even where W over its scale overflows.
+        let free = reaction.amax() == 0.0;
+        let u = if free { unit } else { self.u(&reaction, &unit) };
         residual(mu, &u, &reaction)
     }
 
@@ -284,8 +281,8 @@ impl<const D: usize> SingleContact<D> {
     #[inline]
     fn polish(&self, start: Vector<D>, b: &Vector<D>, mu: f64) -> Vector<D> {
         let mut best = (self.residual(&start, b, mu), start);
-        for _ in 0..4 {
-            if best.0 <= 4e-16 {
+        for _ in 0..POLISHING_STEPS {
+            if best.0 <= ROUNDED {
                 break;
             }
             let Some(r) = self.slip_step(&best.1, b, mu) else {
@@ -302,45 +299,39 @@ impl<const D: usize> SingleContact<D> {
 
     fn slip_step(&self, r: &Vector<D>, b: &Vector<D>, mu: f64) -> Option<Vector<D>> {
         let n = D - 1;
-        let u = affine(&self.w, r, b);
-        let mut e = [0.0; D];
-        for i in 0..n {
-            e[i] = r[i] - u[i];
-        }
+        let u = self.u(r, b);
+        let mut e = r - u;
+        e[n] = 0.0;
         let length = tangential_norm(&e);
         if length == 0.0 || length.is_nan() {
             return None;
         }
-        for x in &mut e {
-            *x /= length;
+        for i in 0..n {
+            e[i] /= length;
         }
         let turn = mu * r[n] / length;
-        let (mut a, mut rhs) = ([[0.0; D]; D], [0.0; D]);
-        a[n] = self.w[n];
+        let (mut a, mut rhs) = (Matrix::<D>::zeros(), Vector::<D>::zeros());
+        a.set_row(n, &self.w.row(n));
         rhs[n] = -u[n];
         for i in 0..n {
             rhs[i] = mu * r[n] * e[i] - r[i];
-            a[i][n] -= mu * e[i];
-            a[i][i] += 1.0;
+            a[(i, n)] -= mu * e[i];
+            a[(i, i)] += 1.0;
             for k in 0..n {
                 let across = turn * (f64::from(u8::from(i == k)) - e[i] * e[k]);
-                a[i][k] -= across;
+                a[(i, k)] -= across;
                 for j in 0..D {
-                    a[i][j] += across * self.w[k][j];
+                    a[(i, j)] += across * self.w[(k, j)];
                 }
             }
         }
-        let mut next = solve_small(&a, &rhs)?;
-        for i in 0..D {
-            next[i] += r[i];
-        }
-        Some(next)
+        Some(solve_small(&a, &rhs)? + r)
     }
 
     /// Last resort for `W` that is not positive definite: projections from several starts, each polished.
     #[cold]
     fn search(&self, start: Vector<D>, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
-        let mut best = (self.residual(&[0.0; D], b, mu), [0.0; D]);
+        let mut best = (self.residual(&Vector::zeros(), b, mu), Vector::zeros());
         let mut consider = |r: Vector<D>| {
             let r = cone::project(mu, &r);
             let error = self.residual(&r, b, mu);
@@ -348,17 +339,14 @@ impl<const D: usize> SingleContact<D> {
                 best = (error, r);
             }
         };
-        let mut push = [0.0; D];
+        let mut push = Vector::zeros();
         push[D - 1] = 1.0;
         consider(start);
-        for first in [[0.0; D], start, push] {
+        for first in [Vector::zeros(), start, push] {
             for rho in [0.2, 1.0] {
                 let mut r = first;
-                for _ in 0..200 {
-                    let f = natural_map(mu, rho, &affine(&self.w, &r, b), &r);
-                    for i in 0..D {
-                        r[i] -= f[i];
-                    }
+                for _ in 0..PROJECTIONS {
+                    r -= natural_map(mu, rho, &self.u(&r, b), &r);
                 }
                 if r.iter().all(|x| x.is_finite()) {
                     consider(r);
@@ -366,7 +354,7 @@ impl<const D: usize> SingleContact<D> {
                 }
             }
         }
-        let u = affine(&self.w, &best.1, b);
+        let u = self.u(&best.1, b);
         let status = crate::law::status(mu, 1.0, &u, &best.1);
         SingleSolution {
             r: best.1,
@@ -379,10 +367,10 @@ impl<const D: usize> SingleContact<D> {
 #[inline(always)]
 fn residual<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
     let f = natural_map(mu, 1.0, u, r);
-    let size = 1.0_f64.max(max_abs(r)).max(max_abs(u));
+    let size = 1.0_f64.max(r.amax()).max(u.amax());
     // The maximum forgets NaN, the sum does not.
-    let finite = (f.iter().sum::<f64>() + u.iter().sum::<f64>()).is_finite();
-    if finite { max_abs(&f) / size } else { f64::MAX }
+    let finite = (f.sum() + u.sum()).is_finite();
+    if finite { f.amax() / size } else { f64::MAX }
 }
 
 /// The largest power of two not above `x > 0`.
@@ -394,14 +382,14 @@ fn power_of_two(x: f64) -> f64 {
 impl Reduced {
     fn new<const D: usize>(w: &Matrix<D>) -> Self {
         let n = D - 1;
-        let inv_wnn = 1.0 / w[n][n];
+        let inv_wnn = 1.0 / w[(n, n)];
         let mut s = Reduced {
             inv_wnn,
             ..Reduced::default()
         };
         for i in 0..n {
             for j in 0..n {
-                s.w[i][j] = w[i][j] - w[i][n] * w[n][j] * inv_wnn;
+                s.w[i][j] = w[(i, j)] - w[(i, n)] * w[(n, j)] * inv_wnn;
             }
         }
         s.trace = s.w[0][0] + s.w[1][1];
@@ -412,21 +400,30 @@ impl Reduced {
 
 /// The exact reaction of one contact: `u = W r + b`.
 ///
-/// `w` by rows and `b`, normal last; `mu >= 0` [-]. For positive definite `w` the answer is exact to rounding; otherwise
+/// `w` and `b`, normal last; `mu >= 0` \[-\]. For positive definite `w` the answer is exact to rounding; otherwise
 /// `solved` tells. Never NaN. For many solutions with the same `w` keep a [`SingleContact`].
+///
+/// ```
+/// use contact_bipotential::nalgebra::{Matrix3, Vector3};
+/// use contact_bipotential::{Status, solve_single};
+///
+/// // A body of unit compliance is pressed by one unit and dragged along by ten: it slides at the friction limit.
+/// let pressed = solve_single(&Matrix3::identity(), &Vector3::new(10.0, 0.0, -1.0), 0.3);
+/// assert!(pressed.solved && pressed.status == Status::Slip);
+/// assert!((pressed.r - Vector3::new(-0.3, 0.0, 1.0)).amax() < 1e-15);
+/// ```
+#[must_use]
 pub fn solve_single<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64) -> SingleSolution<D> {
-    let sound = mu >= 0.0 && mu.is_finite() && w.iter().flatten().all(|x| x.is_finite());
+    let sound = mu >= 0.0 && mu.is_finite() && w.iter().all(|x| x.is_finite());
     if !sound {
-        return SingleSolution {
-            r: [0.0; D],
-            status: Status::Separate,
-            solved: false,
-        };
+        return SingleSolution::free(false);
     }
     SingleContact::new(w).solve(b, mu)
 }
 
-/// Scale-free residual of one contact: `F` with `rho = 1 / w`, `w` near the mean diagonal, over the largest of `b`, `w r`, `u`.
+/// Scale-free residual of one contact: `F` with `rho = 1 / w`, `w` near the mean diagonal, over the largest of `b`, `w r`, `u`
+/// \[-\].
+#[must_use]
 pub fn single_residual<const D: usize>(
     w: &Matrix<D>,
     b: &Vector<D>,

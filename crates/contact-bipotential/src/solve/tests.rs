@@ -6,13 +6,12 @@ use proptest::prelude::*;
 use super::*;
 use crate::conformance::{brick_wall, check_law, check_outcome, half_space, scaled};
 use crate::delassus::DelassusOperator;
+use crate::error::ContactError;
 
 fn settings(method: Method, tolerance: f64) -> SolveSettings {
-    SolveSettings {
-        method,
-        tolerance,
-        ..SolveSettings::default()
-    }
+    SolveSettings::default()
+        .with_method(method)
+        .with_tolerance(tolerance)
 }
 
 fn solved(problem: &ContactProblem, tolerance: f64) -> (Vec<f64>, Outcome) {
@@ -220,7 +219,7 @@ impl DelassusOperator for OnlyProducts {
     fn diagonal_block(&self, c: usize, dim: usize, out: &mut [f64]) {
         let block = self.0.diagonal::<3>(c);
         for i in 0..dim * dim {
-            out[i] = block[i / dim][i % dim];
+            out[i] = block[(i / dim, i % dim)];
         }
     }
 }

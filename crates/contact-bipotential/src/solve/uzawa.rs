@@ -1,84 +1,79 @@
 //! The predictor-corrector of the bi-potential papers on all contacts at once.
 
 use crate::cone;
+use crate::error_measure::ErrorMeasure;
+use crate::law::predictor;
 use crate::local::{load, store};
 use crate::problem::ContactProblem;
-use crate::solve::iterate::{Iterate, Work};
-use crate::solve::mixing::Mixer;
-use crate::truth::Truth;
+use crate::solve::acceleration::Acceleration;
+use crate::solve::iterate::Iterate;
+use crate::solve::outcome::Work;
+
+/// Error over the best one met \[-\] that says that `rho` is too long.
+const EXPLODED: f64 = 100.0;
+/// Steps of the power iteration, and the factor \[-\] by which its value may fall short.
+const POWER_STEPS: usize = 20;
+const MARGIN: f64 = 1.1;
 
 /// `r <- Proj(r - rho_c (u + mu |u_t| n))` for every contact together, `rho_c = rho / w_c`.
 ///
 /// It needs nothing but products with `W`. `rho` starts at one over the largest eigenvalue of the scaled `W` and is halved
-/// where the error explodes. Linear convergence, slow where `W` is ill-conditioned; `mixed` extrapolates the sequence.
+/// where the error explodes. Linear convergence, slow where `W` is ill-conditioned; `accelerated` extrapolates the sequence.
 pub(crate) fn uzawa<const D: usize>(
     problem: &ContactProblem,
-    truth: &Truth<'_>,
+    measure: &ErrorMeasure<'_>,
     best: &mut Iterate,
     tolerance: f64,
     budget: usize,
-    mixed: bool,
+    accelerated: bool,
     work: &mut Work,
 ) {
-    let mut rho = 1.0 / largest_eigenvalue::<D>(problem, truth).max(f64::MIN_POSITIVE);
+    let mut rho = 1.0 / largest_eigenvalue::<D>(problem, measure).max(f64::MIN_POSITIVE);
     let mut x = best.clone();
-    let mut mixer = Mixer::new(truth);
+    let mut acceleration = Acceleration::new();
     for _ in 0..budget {
         if best.is_within(tolerance) {
             return;
         }
         work.projections += 1;
-        let before = x.clone();
-        correct::<D>(problem, truth, rho, &mut x);
-        x.refresh(truth);
-        let mut improved = best.keep_better(&x);
-        if x.errors.scale_free > 100.0 * best.errors.scale_free {
+        let before = x.r.clone();
+        correct::<D>(problem, measure, rho, &mut x);
+        x.refresh(measure);
+        let improved = best.keep_better(&x);
+        if x.errors.scale_free > EXPLODED * best.errors.scale_free {
             rho *= 0.5;
             x = best.clone();
-            mixer.forget();
+            acceleration.forget();
             continue;
         }
-        if !mixed {
-            continue;
+        if accelerated {
+            acceleration.accelerate(measure, &before, &mut x, best, improved);
         }
-        let plain = x.errors.scale_free;
-        if let Some(r) = mixer.mix(&before.r, &x.r) {
-            let swept = std::mem::replace(&mut x.r, r);
-            x.refresh(truth);
-            improved |= best.keep_better(&x);
-            if x.errors.scale_free > 2.0 * plain {
-                x.r = swept;
-                x.refresh(truth);
-                mixer.forget();
-            }
-        }
-        mixer.note(improved);
     }
 }
 
-fn correct<const D: usize>(problem: &ContactProblem, truth: &Truth<'_>, rho: f64, x: &mut Iterate) {
-    for (c, (&mu, scale)) in problem.mu.iter().zip(truth.scales()).enumerate() {
-        let (mut z, v) = (
-            load::<D>(&x.r, c),
-            cone::modified_velocity(mu, &load::<D>(&x.u, c)),
-        );
-        for i in 0..D {
-            z[i] -= rho / scale * v[i];
-        }
+fn correct<const D: usize>(
+    problem: &ContactProblem,
+    measure: &ErrorMeasure<'_>,
+    rho: f64,
+    x: &mut Iterate,
+) {
+    for (c, (&mu, scale)) in problem.mu.iter().zip(measure.scales()).enumerate() {
+        let z = predictor::<D>(mu, rho / scale, &load(&x.u, c), &load(&x.r, c));
         store(&mut x.r, c, &cone::project(mu, &z));
     }
 }
 
 /// Largest eigenvalue of `W` scaled by `1 / sqrt(w_c)` on both sides, by power iteration, with a margin.
-fn largest_eigenvalue<const D: usize>(problem: &ContactProblem, truth: &Truth<'_>) -> f64 {
+fn largest_eigenvalue<const D: usize>(problem: &ContactProblem, measure: &ErrorMeasure<'_>) -> f64 {
     let n = problem.q.len();
-    let roots: Vec<f64> = truth.scales().iter().map(|w| w.sqrt()).collect();
+    let roots = measure.roots();
     let mut x: Vec<f64> = (0..n)
         .map(|i| 1.0 + 0.5 * ((i % 7) as f64 - 3.0) / 7.0)
         .collect();
     let mut y = vec![0.0; n];
     let mut value = 1.0;
-    for _ in 0..20 {
+    for _ in 0..POWER_STEPS {
         let norm = x.iter().map(|a| a * a).sum::<f64>().sqrt();
         if !(norm > 0.0 && norm.is_finite()) {
             break;
@@ -92,5 +87,5 @@ fn largest_eigenvalue<const D: usize>(problem: &ContactProblem, truth: &Truth<'_
         }
         value = x.iter().map(|a| a * a).sum::<f64>().sqrt();
     }
-    1.1 * value
+    MARGIN * value
 }

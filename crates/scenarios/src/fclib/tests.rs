@@ -57,10 +57,7 @@ fn a_missing_file_is_named() {
 fn every_problem_is_solved_to_the_last_digits() {
     for path in files("every_problem_is_solved_to_the_last_digits") {
         let problem = read(&path).unwrap();
-        let settings = SolveSettings {
-            tolerance: 1e-12,
-            ..SolveSettings::default()
-        };
+        let settings = SolveSettings::default().with_tolerance(1e-12);
         let mut r = Vec::new();
         let outcome = solve(&problem, &mut r, &settings);
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
@@ -87,11 +84,10 @@ fn no_method_claims_what_it_has_not_solved() {
     for path in files("no_method_claims_what_it_has_not_solved") {
         let problem = read(&path).unwrap();
         for method in Method::ALL {
-            let settings = SolveSettings {
-                method,
-                tolerance: 1e-8,
-                max_iterations: 300,
-            };
+            let settings = SolveSettings::default()
+                .with_method(method)
+                .with_tolerance(1e-8)
+                .with_max_iterations(300);
             let mut r = Vec::new();
             let outcome = solve(&problem, &mut r, &settings);
             check_outcome(&problem, &r, &outcome, 1e-8)

@@ -111,13 +111,9 @@ fn with_tangents(problem: &ContactProblem) -> ContactProblem {
         entries.extend((0..contacts).map(|d| (3 * d + 2, 3 * c + 2, flat[(d, c)])));
     }
     let w = Delassus::from_entries(contacts, 3, &entries);
-    ContactProblem {
-        // Every entry lies inside.
-        w: w.unwrap_or_else(|_| problem.w.clone()),
-        q,
-        mu: vec![0.0; contacts],
-        cone: Cone::Spatial,
-    }
+    // Every entry lies inside.
+    let w = w.unwrap_or_else(|_| problem.w.clone());
+    ContactProblem::unchecked(w, q, vec![0.0; contacts], Cone::Spatial)
 }
 
 #[cfg(test)]
@@ -135,12 +131,9 @@ mod tests {
         let entries: Vec<_> = (0..size * size)
             .map(|k| (k / size, k % size, entry(k / size, k % size)))
             .collect();
-        ContactProblem {
-            w: Delassus::from_entries(contacts, dim, &entries).unwrap(),
-            q: (0..size).map(|k| 0.5 - k as f64).collect(),
-            mu: vec![0.2, 0.0, 1.5],
-            cone,
-        }
+        let w = Delassus::from_entries(contacts, dim, &entries).unwrap();
+        let q = (0..size).map(|k| 0.5 - k as f64).collect();
+        ContactProblem::unchecked(w, q, vec![0.2, 0.0, 1.5], cone)
     }
 
     #[test]
@@ -158,10 +151,8 @@ mod tests {
 
     #[test]
     fn one_row_a_contact_becomes_three() {
-        let given = ContactProblem {
-            mu: vec![0.0; 3],
-            ..problem(Cone::Frictionless)
-        };
+        let mut given = problem(Cone::Frictionless);
+        given.mu = vec![0.0; 3];
         let path = Path::new("x.hdf5");
         let read = hdf5::parse(path, local(path, &given).unwrap()).unwrap();
         assert_eq!((read.cone, read.contacts()), (Cone::Spatial, 3));

@@ -212,10 +212,7 @@ fn dumped(scene: &str, interface: &str, step: usize, expected: Cone, tolerance: 
     let problem = scenarios::fclib::read(&path).unwrap();
     assert_eq!(problem.cone, expected);
     let mut r = Vec::new();
-    let settings = SolveSettings {
-        tolerance: 1e-12,
-        ..SolveSettings::default()
-    };
+    let settings = SolveSettings::default().with_tolerance(1e-12);
     assert!(solve(&problem, &mut r, &settings).is_converged());
     // All normals are nearly parallel here, so the reactions add up to the force of the step.
     let dim = problem.cone.dim();

@@ -1,5 +1,3 @@
-use proptest::prelude::*;
-
 use super::*;
 use crate::conformance::half_space;
 use crate::rcc::{Adhesion, Bond, Update};
@@ -40,16 +38,13 @@ fn all_ways_to_a_bonded_solution_agree() {
                 "{update:?} {depth}: {:?}",
                 outcome.work
             );
-            let truth = Truth::bonded(&problem, &bonds);
-            let mut x = Iterate::new(&truth, &vec![0.0; problem.q.len()]);
+            let measure = ErrorMeasure::bonded(&problem, &bonds);
+            let mut x = Iterate::new(&measure, &vec![0.0; problem.q.len()]);
             let sweeper = Sweeper::<3>::bonded(&problem, &bonds, Kernel::Exact);
-            sweeper.run_mixed(&truth, &mut x, 1e-10, 2000, &mut Work::default());
+            sweeper.run_accelerated(&measure, &mut x, 1e-10, 2000, &mut Work::default());
             swept.extend_from_slice(&x.r);
             assert!(x.is_within(1e-10), "{:?}", x.errors);
-            let proximal = SolveSettings {
-                method: Method::Proximal,
-                ..settings
-            };
+            let proximal = settings.with_method(Method::Proximal);
             let other = solve_bonded(&problem, &bonds, &mut settled, &proximal);
             assert_eq!(
                 other.status,
@@ -87,7 +82,7 @@ fn bonds_hold_what_contact_alone_lets_go() {
         &SolveSettings::default(),
     );
     assert!(outcome.is_converged());
-    solve(&problem, &mut without, &SolveSettings::default());
+    assert!(solve(&problem, &mut without, &SolveSettings::default()).is_converged());
     assert!(without.iter().all(|r| *r == 0.0));
     assert!(with.chunks(3).all(|r| r[2] < 0.0));
 }
@@ -123,38 +118,4 @@ fn a_list_of_bonds_of_another_length_is_refused() {
         &SolveSettings::default(),
     );
     assert!(outcome.refusal.is_some() && !outcome.is_converged());
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
-
-    /// The single bonded contact satisfies law and bond at once, for steps short enough to be unique.
-    #[test]
-    fn one_bonded_contact_is_exact(
-        w in prop::array::uniform9(-1.0..1.0_f64), b in prop::array::uniform3(-1e-2..1e-2_f64), mu in 0.0..1.5_f64,
-        beta in 0.0..1.0_f64, u in prop::array::uniform2(-5e-3..5e-3_f64), pair in any::<bool>(), stiff in -1.0..3.0_f64,
-    ) {
-        let mut compliance = [[0.0; 3]; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                compliance[i][j] = (0..3).map(|k| w[3 * i + k] * w[3 * j + k]).sum::<f64>() + if i == j { 0.1 } else { 0.0 };
-            }
-        }
-        let c = 10.0_f64.powf(stiff);
-        let update = if pair { Update::EnergyConsistent } else { Update::SecondOrder };
-        let law = Adhesion { update, ..Adhesion::new(c, 0.6 * c, c * 1e-5, c) };
-        let start = Bond { intensity: beta, gap: 0.0, separation: u };
-        let step = BondStep::new(&law, 1.0, 1.0, start, 1e-15);
-        let r = bonded_contact(&compliance, &b, mu, &step);
-        let problem = ContactProblem {
-            w: Delassus::Dense(Mat::from_fn(3, 3, |i, j| compliance[i][j])),
-            q: b.to_vec(),
-            mu: vec![mu],
-            cone: Cone::Spatial,
-        };
-        let steps = [step];
-        let mut x = vec![0.0; 3];
-        let errors = Truth::bonded(&problem, &steps).evaluate(&r, &mut x);
-        prop_assert!(errors.worst() < 1e-9, "{errors:?} {x:?}");
-    }
 }

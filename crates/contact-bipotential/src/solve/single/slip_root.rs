@@ -1,5 +1,12 @@
 //! The scalar equation of a sliding contact.
 
+/// Newton steps and halvings at most: 80 halvings of the exponent cross the whole range of numbers.
+const STEPS: usize = 80;
+/// Change of the root that is rounding \[-\].
+const ROUNDED: f64 = 1e-15;
+/// Where the lower end is zero the root is looked for five binary places below the upper one.
+const FIVE_PLACES: f64 = 0.03125;
+
 /// `G(a) = k0 + k1 a + k2 a^2 - |p + a c|`, whose root is the ratio of sliding velocity to friction force.
 pub(super) struct SlipRoot {
     pub(super) p: [f64; 2],
@@ -45,7 +52,7 @@ impl SlipRoot {
             return 0.0;
         }
         let mut a = high;
-        for _ in 0..80 {
+        for _ in 0..STEPS {
             let (value, slope) = self.value_and_slope(a);
             if value == 0.0 {
                 break;
@@ -61,13 +68,13 @@ impl SlipRoot {
                 next = if low > 0.0 {
                     (low * high).sqrt()
                 } else {
-                    0.03125 * high
+                    FIVE_PLACES * high
                 };
                 if !(next > low && next < high) {
                     break;
                 }
             }
-            let done = (next - a).abs() <= 1e-15 * a;
+            let done = (next - a).abs() <= ROUNDED * a;
             a = next;
             if done {
                 break;

@@ -1,6 +1,10 @@
 use super::*;
-use crate::local::dot;
+use nalgebra::{Matrix1, Matrix2, Matrix3, Vector1, Vector2, Vector3};
 use proptest::prelude::*;
+
+fn by_rows(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
+    Matrix3::from(rows).transpose()
+}
 
 /// A small generator of our own: a million cases need neither shrinking nor strategies.
 struct Random(u64);
@@ -17,12 +21,12 @@ impl Random {
         2.0 * self.unit() - 1.0
     }
 
-    fn direction(&mut self) -> [f64; 3] {
+    fn direction(&mut self) -> Vector3<f64> {
         loop {
-            let v = [self.sign(), self.sign(), self.sign()];
-            let n = dot(&v, &v).sqrt();
+            let v = Vector3::new(self.sign(), self.sign(), self.sign());
+            let n = v.norm();
             if n > 1e-2 && n <= 1.0 {
-                return v.map(|x| x / n);
+                return v / n;
             }
         }
     }
@@ -31,32 +35,19 @@ impl Random {
     fn compliance(&mut self, decades: f64) -> Matrix<3> {
         let a = self.direction();
         let mut b = self.direction();
-        let along = dot(&a, &b);
-        for i in 0..3 {
-            b[i] -= along * a[i];
-        }
-        let length = dot(&b, &b).sqrt();
+        b -= a * a.dot(&b);
+        let length = b.norm();
         if length < 1e-3 {
             return self.compliance(decades);
         }
-        let b = b.map(|x| x / length);
-        let c = [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ];
+        let b = b / length;
+        let c = a.cross(&b);
         let e = [
             1.0,
             10f64.powf(-decades * self.unit()),
             10f64.powf(-decades * self.unit()),
         ];
-        let mut w = [[0.0; 3]; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                w[i][j] = e[0] * a[i] * a[j] + e[1] * b[i] * b[j] + e[2] * c[i] * c[j];
-            }
-        }
-        w
+        e[0] * a * a.transpose() + e[1] * b * b.transpose() + e[2] * c * c.transpose()
     }
 }
 
@@ -75,8 +66,8 @@ fn a_million_contacts_of_any_scale_are_solved() {
             10f64.powf(100.0 * random.sign()),
             10f64.powf(150.0 * random.sign()),
         );
-        w.iter_mut().flatten().for_each(|x| *x *= size_w);
-        let mut b = random.direction().map(|x| x * size_b);
+        w *= size_w;
+        let mut b = random.direction() * size_b;
         if k % 4 != 0 {
             b[2] = -b[2].abs();
         }
@@ -101,9 +92,9 @@ fn odd_compliances_are_solved_or_reported() {
         for i in 0..3 {
             for j in 0..3 {
                 match k % 3 {
-                    0 => w[i][j] += 1e-2 * random.sign(),
-                    1 => w[i][j] = v[i] * v[j],
-                    _ => w[i][j] = random.sign(),
+                    0 => w[(i, j)] += 1e-2 * random.sign(),
+                    1 => w[(i, j)] = v[i] * v[j],
+                    _ => w[(i, j)] = random.sign(),
                 }
             }
         }
@@ -131,14 +122,14 @@ fn a_slipping_contact_matches_a_scan_of_all_directions() {
         if s.status != Status::Slip {
             continue;
         }
-        let mut best = (f64::MAX, [0.0; 3]);
+        let mut best = (f64::MAX, Vector3::zeros());
         for k in 0..20_000 {
             let phi = k as f64 / 20_000.0 * std::f64::consts::TAU;
             let d = [phi.cos(), phi.sin()];
-            let compliance = w[2][2] - mu * (w[2][0] * d[0] + w[2][1] * d[1]);
+            let compliance = w[(2, 2)] - mu * (w[(2, 0)] * d[0] + w[(2, 1)] * d[1]);
             let n = -b[2] / compliance;
-            let r = [-mu * n * d[0], -mu * n * d[1], n];
-            let u = affine(&w, &r, &b);
+            let r = Vector3::new(-mu * n * d[0], -mu * n * d[1], n);
+            let u = w * r + b;
             let along = u[0] * d[0] + u[1] * d[1];
             let across = (u[0] * d[1] - u[1] * d[0]).abs();
             if n > 0.0 && along > 0.0 && across / along < best.0 {
@@ -149,9 +140,9 @@ fn a_slipping_contact_matches_a_scan_of_all_directions() {
             continue;
         }
         compared += 1;
-        let distance = max_abs(&crate::local::difference(&best.1, &s.r));
+        let distance = (best.1 - s.r).amax();
         assert!(
-            distance < 1e-2 * (1.0 + max_abs(&s.r)),
+            distance < 1e-2 * (1.0 + s.r.amax()),
             "{w:?} {b:?} {mu} {s:?} {best:?}"
         );
     }
@@ -161,7 +152,7 @@ fn a_slipping_contact_matches_a_scan_of_all_directions() {
 #[test]
 fn shrunk_cases_are_solved_or_reported() {
     let zero = [0.0; 3];
-    let cases: [(Matrix<3>, Vector<3>, f64); 5] = [
+    let cases: [([[f64; 3]; 3], [f64; 3], f64); 5] = [
         // The reaction underflows.
         (
             [zero, zero, [0.0, 0.0, 3.224520935977679e210]],
@@ -196,7 +187,8 @@ fn shrunk_cases_are_solved_or_reported() {
         ),
         ([[1.0; 3]; 3], [1e-320, 0.0, -1e-320], 0.3),
     ];
-    for (w, b, mu) in cases {
+    for (rows, b, mu) in cases {
+        let (w, b) = (by_rows(rows), Vector3::from(b));
         let s = solve_single(&w, &b, mu);
         assert!(s.r.iter().all(|x| x.is_finite()), "{s:?}");
         assert!(
@@ -208,25 +200,29 @@ fn shrunk_cases_are_solved_or_reported() {
 
 #[test]
 fn plane_and_frictionless_contacts_by_hand() {
-    let w = [[2.0, 0.5], [0.5, 1.0]];
+    let w = Matrix2::new(2.0, 0.5, 0.5, 1.0);
     // Slides towards +t: r_t = -mu r_n, u_n = r_n (1 - .5 mu) - 1 = 0.
-    let s = solve_single(&w, &[10.0, -1.0], 0.4);
+    let s = solve_single(&w, &Vector2::new(10.0, -1.0), 0.4);
     assert_eq!(s.status, Status::Slip);
     assert!((s.r[1] - 1.25).abs() < 1e-14 && (s.r[0] + 0.5).abs() < 1e-14);
-    let s = solve_single(&w, &[-0.4, -1.0], 0.9);
+    let s = solve_single(&w, &Vector2::new(-0.4, -1.0), 0.9);
     assert_eq!(s.status, Status::Stick);
-    assert!(max_abs(&affine(&w, &s.r, &[-0.4, -1.0])) < 1e-15);
-    assert_eq!(solve_single(&w, &[3.0, 0.0], 0.9).r, [0.0, 0.0]);
-    assert_eq!(solve_single(&[[4.0]], &[-2.0], 0.0).r, [0.5]);
-    assert_eq!(solve_single(&[[4.0]], &[2.0], 0.0).status, Status::Separate);
+    assert!((w * s.r + Vector2::new(-0.4, -1.0)).amax() < 1e-15);
+    assert_eq!(
+        solve_single(&w, &Vector2::new(3.0, 0.0), 0.9).r,
+        Vector2::zeros()
+    );
+    let one = |b| solve_single(&Matrix1::new(4.0), &Vector1::new(b), 0.0);
+    assert_eq!(one(-2.0).r, Vector1::new(0.5));
+    assert_eq!(one(2.0).status, Status::Separate);
     assert_eq!(
         solve_single(
-            &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 2.0]],
-            &[1.0, 1.0, -4.0],
+            &Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, 2.0)),
+            &Vector3::new(1.0, 1.0, -4.0),
             0.0
         )
         .r,
-        [0.0, 0.0, 2.0]
+        Vector3::new(0.0, 0.0, 2.0)
     );
 }
 
@@ -236,7 +232,7 @@ proptest! {
         a in 0.1..3.0_f64, c in 0.1..3.0_f64, k in -0.95..0.95_f64, b in prop::array::uniform2(-1.0..1.0_f64), mu in 0.0..5.0_f64
     ) {
         let off = k * (a * c).sqrt();
-        let w = [[a, off], [off, c]];
+        let (w, b) = (Matrix2::new(a, off, off, c), Vector2::from(b));
         let s = solve_single(&w, &b, mu);
         prop_assert!(s.solved && single_residual(&w, &b, mu, &s.r) <= 1e-13);
     }
@@ -245,6 +241,7 @@ proptest! {
     fn nothing_makes_a_number_that_is_none(
         w in prop::array::uniform3(prop::array::uniform3(any::<f64>())), b in prop::array::uniform3(any::<f64>()), mu in prop_oneof![0.0..1e3_f64, Just(f64::NAN), Just(-1.0)]
     ) {
+        let (w, b) = (by_rows(w), Vector3::from(b));
         let s = solve_single(&w, &b, mu);
         prop_assert!(s.r.iter().all(|x| x.is_finite()));
         if s.solved {
@@ -257,10 +254,10 @@ proptest! {
     fn powers_of_two_change_nothing_but_the_scale(
         b in prop::array::uniform3(-1.0..1.0_f64), mu in 0.0..2.0_f64, i in -40..40_i32, j in -40..40_i32
     ) {
-        let w = [[1.0, 0.2, -0.1], [0.2, 1.4, 0.3], [-0.1, 0.3, 0.8]];
+        let (w, b) = (Matrix3::new(1.0, 0.2, -0.1, 0.2, 1.4, 0.3, -0.1, 0.3, 0.8), Vector3::from(b));
         let (fw, fb) = (2f64.powi(i), 2f64.powi(j));
         let plain = solve_single(&w, &b, mu);
-        let scaled = solve_single(&w.map(|row| row.map(|x| x * fw)), &b.map(|x| x * fb), mu);
+        let scaled = solve_single(&(w * fw), &(b * fb), mu);
         prop_assert_eq!(scaled.status, plain.status);
         prop_assert_eq!(scaled.r, plain.r.map(|x| x * fb / fw));
     }

@@ -2,12 +2,13 @@
 
 use crate::cone::{Cone, bipotential_gap};
 use crate::law::{ContactDiagnostic, diagnose, natural_map};
-use crate::local::{Vector, dot, load, local_axes, max_abs, spatial};
+use crate::local::{Vector, from_spatial, load, spatial};
 use crate::problem::ContactProblem;
 use crate::rcc::{BondPoint, BondStep};
 
 /// How far reactions are from solving a problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Errors {
     /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` [-]: the measure of Siconos. It mixes units.
     pub siconos: f64,
@@ -28,7 +29,8 @@ impl Errors {
         gap: f64::MAX,
     };
 
-    /// The larger of the two errors that a solution is judged by.
+    /// The larger of the two errors that a solution is judged by [-].
+    #[must_use]
     pub fn worst(&self) -> f64 {
         self.siconos.max(self.scale_free)
     }
@@ -36,10 +38,11 @@ impl Errors {
 
 /// A problem with the scales its errors are measured by.
 #[derive(Debug)]
-pub struct Truth<'a> {
+pub struct ErrorMeasure<'a> {
     problem: &'a ContactProblem,
     bonds: &'a [BondStep],
     scales: Vec<f64>,
+    /// Square roots of the scales.
     roots: Vec<f64>,
 }
 
@@ -56,7 +59,62 @@ pub(crate) struct Dry<const D: usize> {
     pub(crate) bond: BondPoint,
 }
 
-impl<'a> Truth<'a> {
+impl<const D: usize> Dry<D> {
+    /// A contact of the bare surfaces' friction `mu` with the whole reaction `r`; `u` is the end position of the bond's step.
+    #[inline(always)]
+    fn new(bond: Option<&BondStep>, mu: f64, r: &Vector<D>, u: &Vector<D>) -> Self {
+        let Some(bond) = bond else {
+            return Dry {
+                mu,
+                mu_slope: 0.0,
+                r: *r,
+                bond: BondPoint::default(),
+            };
+        };
+        let at = bond.at(&spatial(u));
+        Dry {
+            mu: bond.friction(mu, at.intensity),
+            mu_slope: bond.friction_slope(mu),
+            r: r - from_spatial(&at.force),
+            bond: at,
+        }
+    }
+}
+
+/// How far one contact is from the law: `|r - Proj_K(r - rho (u + mu |u_t| n))|`, in the unit of `r`, zero exactly where the
+/// law holds.
+///
+/// `u` and `r` are slices of `cone.dim()` entries, normal last; `rho > 0` is a stiffness, unit of `r` over unit of `u`. With a
+/// `bond`, `u` is the end position of its step, and the law governs what the bond force leaves of `r`; `mu` is that of the
+/// bare surfaces.
+#[must_use]
+pub fn law_residual(
+    cone: Cone,
+    bond: Option<&BondStep>,
+    mu: f64,
+    rho: f64,
+    u: &[f64],
+    r: &[f64],
+) -> f64 {
+    fn with<const D: usize>(
+        bond: Option<&BondStep>,
+        mu: f64,
+        rho: f64,
+        u: &[f64],
+        r: &[f64],
+    ) -> f64 {
+        let u = load::<D>(u, 0);
+        let dry = Dry::new(bond, mu, &load(r, 0), &u);
+        natural_map(dry.mu, rho, &u, &dry.r).norm()
+    }
+    match cone {
+        Cone::Frictionless => with::<1>(bond, mu, rho, u, r),
+        Cone::Planar => with::<2>(bond, mu, rho, u, r),
+        Cone::Spatial => with::<3>(bond, mu, rho, u, r),
+    }
+}
+
+impl<'a> ErrorMeasure<'a> {
     /// Prepares the scales.
     pub fn new(problem: &'a ContactProblem) -> Self {
         Self::bonded(problem, &[])
@@ -67,7 +125,7 @@ impl<'a> Truth<'a> {
     pub fn bonded(problem: &'a ContactProblem, bonds: &'a [BondStep]) -> Self {
         let scales = problem.compliance_scales();
         let roots = scales.iter().map(|w| w.sqrt()).collect();
-        Truth {
+        ErrorMeasure {
             problem,
             bonds,
             scales,
@@ -78,27 +136,7 @@ impl<'a> Truth<'a> {
     /// Contact `c` without its bond, which is there only where bonds were given.
     #[inline(always)]
     pub(crate) fn dry<const D: usize>(&self, c: usize, r: &Vector<D>, u: &Vector<D>) -> Dry<D> {
-        let mu = self.problem.mu[c];
-        let Some(bond) = self.bonds.get(c) else {
-            let (r, bond, mu_slope) = (*r, BondPoint::default(), 0.0);
-            return Dry {
-                mu,
-                mu_slope,
-                r,
-                bond,
-            };
-        };
-        let at = bond.at(&spatial(u));
-        let mut dry = *r;
-        for (i, axis) in local_axes(D).iter().enumerate() {
-            dry[i] -= at.force[*axis];
-        }
-        Dry {
-            mu: bond.friction(mu, at.intensity),
-            mu_slope: bond.friction_slope(mu),
-            r: dry,
-            bond: at,
-        }
+        Dry::new(self.bonds.get(c), self.problem.mu[c], r, u)
     }
 
     /// The bonds, one a contact, or none.
@@ -106,15 +144,20 @@ impl<'a> Truth<'a> {
         self.bonds
     }
 
-    /// Compliance scale `w_c` of each contact.
+    /// Compliance scale `w_c` of each contact, unit of `u` over unit of `r`.
     pub fn scales(&self) -> &[f64] {
         &self.scales
+    }
+
+    /// Square roots of the scales: `sqrt(w_c) r` and `u / sqrt(w_c)` have the unit of a square root of an energy.
+    pub(crate) fn roots(&self) -> &[f64] {
+        &self.roots
     }
 
     /// Fills `u = W r + q` and measures the errors.
     pub fn evaluate(&self, r: &[f64], u: &mut [f64]) -> Errors {
         self.velocity(r, u);
-        self.measure(r, u)
+        self.errors(r, u)
     }
 
     /// `u = W r + q`.
@@ -126,15 +169,15 @@ impl<'a> Truth<'a> {
     }
 
     /// The errors of `r` with a `u` known to belong to it.
-    pub fn measure(&self, r: &[f64], u: &[f64]) -> Errors {
+    pub fn errors(&self, r: &[f64], u: &[f64]) -> Errors {
         match self.problem.cone {
-            Cone::Frictionless => self.measure_with::<1>(r, u),
-            Cone::Planar => self.measure_with::<2>(r, u),
-            Cone::Spatial => self.measure_with::<3>(r, u),
+            Cone::Frictionless => self.errors_with::<1>(r, u),
+            Cone::Planar => self.errors_with::<2>(r, u),
+            Cone::Spatial => self.errors_with::<3>(r, u),
         }
     }
 
-    fn measure_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Errors {
+    fn errors_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Errors {
         // Brought to order one first: squares of any admissible number then neither overflow nor all vanish.
         let (plain, energy) = self.magnitudes::<D>(r, u);
         if !plain.is_finite() || !energy.is_finite() {
@@ -149,9 +192,8 @@ impl<'a> Truth<'a> {
             let rc = load::<D>(r, c);
             let dry = self.dry(c, &rc, &uc);
             for (sums, up, down) in [(&mut raw, k, k), (&mut free, e * root, e / root)] {
-                let (u, q) = (scaled(&uc, down), scaled(&qc, down));
-                sums.add(dry.mu, &scaled(&dry.r, up), &u, &q);
-                sums.add_whole(&scaled(&rc, up));
+                sums.add(dry.mu, &(dry.r * up), &(uc * down), &(qc * down));
+                sums.add_whole(&(rc * up));
             }
         }
         let errors = Errors {
@@ -174,7 +216,7 @@ impl<'a> Truth<'a> {
                 load::<D>(u, c),
                 load::<D>(&self.problem.q, c),
             );
-            let (mr, mv) = (max_abs(&rc), max_abs(&uc).max(max_abs(&qc)));
+            let (mr, mv) = (rc.amax(), uc.amax().max(qc.amax()));
             plain = plain.max(mr).max(mv);
             energy = energy.max(mr * root).max(mv / root);
             // `max` forgets NaN, a sum does not.
@@ -205,20 +247,16 @@ impl<'a> Truth<'a> {
                 load::<D>(u, c),
                 load::<D>(&self.problem.q, c),
             );
-            let size = [
-                scaled(&rc, e * root),
-                scaled(&uc, e / root),
-                scaled(&qc, e / root),
-            ];
-            total += size.iter().map(|v| dot(v, v)).fold(0.0, f64::max);
+            let size = [rc * (e * root), uc * (e / root), qc * (e / root)];
+            total += size.iter().map(|v| v.dot(v)).fold(0.0, f64::max);
         }
         let total = if total > 0.0 { total.sqrt() } else { 1.0 };
         let one = |c: usize| {
             let (root, uc) = (self.roots[c], load::<D>(u, c));
             let Dry { mu, r: rc, .. } = self.dry(c, &load::<D>(r, c), &uc);
-            let f = natural_map(mu, 1.0, &scaled(&uc, e / root), &scaled(&rc, e * root));
+            let f = natural_map(mu, 1.0, &(uc * (e / root)), &(rc * (e * root)));
             ContactDiagnostic {
-                error: dot(&f, &f).sqrt() / total,
+                error: f.norm() / total,
                 ..diagnose(mu, 1.0 / self.scales[c], &uc, &rc)
             }
         };
@@ -226,18 +264,19 @@ impl<'a> Truth<'a> {
     }
 }
 
-/// The errors of `r`, everything recomputed. For many evaluations keep a [`Truth`].
+/// The errors of `r`, everything recomputed. For many evaluations keep a [`ErrorMeasure`].
+#[must_use]
 pub fn errors(problem: &ContactProblem, r: &[f64]) -> Errors {
     let mut u = vec![0.0; problem.q.len()];
     if r.len() != u.len() {
         return Errors::WORST;
     }
-    Truth::new(problem).evaluate(r, &mut u)
+    ErrorMeasure::new(problem).evaluate(r, &mut u)
 }
 
-/// Share of `|r|` that the rounding of `W r` may leave in `F`.
+/// Share of `|r|` that the rounding of `W r` may leave in `F` \[-\]: some fifty roundings.
 const ROUNDING: f64 = 1e-14;
-/// `|r|` over `|q|` in the energy norm beyond which reactions are not large but running away.
+/// `|r|` over `|q|` in the energy norm beyond which reactions are not large but running away \[-\].
 const RUNAWAY: f64 = 1e10;
 
 #[derive(Default)]
@@ -253,16 +292,16 @@ impl Sums {
     #[inline(always)]
     fn add<const D: usize>(&mut self, mu: f64, r: &Vector<D>, u: &Vector<D>, q: &Vector<D>) {
         let f = natural_map(mu, 1.0, u, r);
-        self.f += dot(&f, &f);
-        self.u += dot(u, u);
-        self.q += dot(q, q);
+        self.f += f.dot(&f);
+        self.u += u.dot(u);
+        self.q += q.dot(q);
         self.gap += bipotential_gap(mu, u, r).abs();
     }
 
     /// The whole reaction, bond and all: what `F` was rounded with.
     #[inline(always)]
     fn add_whole<const D: usize>(&mut self, r: &Vector<D>) {
-        self.r += dot(r, r);
+        self.r += r.dot(r);
     }
 
     fn error(&self) -> f64 {
@@ -287,15 +326,6 @@ impl Sums {
         let size = (self.u * self.r).sqrt();
         if size > 0.0 { self.gap / size } else { 0.0 }
     }
-}
-
-#[inline(always)]
-fn scaled<const D: usize>(v: &Vector<D>, factor: f64) -> Vector<D> {
-    let mut s = *v;
-    for x in &mut s {
-        *x *= factor;
-    }
-    s
 }
 
 /// A power of two near `1 / size`, so that scaling rounds nothing.
@@ -355,17 +385,17 @@ mod tests {
     #[test]
     fn diagnostics_share_out_the_error() {
         let (p, r) = sliding_block(1.0, 1.0);
-        let truth = Truth::new(&p);
+        let measure = ErrorMeasure::new(&p);
         let mut u = vec![0.0; 3];
         let half: Vec<f64> = r.iter().map(|x| 0.5 * x).collect();
-        let e = truth.evaluate(&half, &mut u);
-        let d = truth.diagnose(&half, &u);
+        let e = measure.evaluate(&half, &mut u);
+        let d = measure.diagnose(&half, &u);
         assert!(
             d[0].penetration > 0.9
                 && d[0].error > 0.5 * e.scale_free
                 && d[0].error < 2.0 * e.scale_free
         );
-        truth.evaluate(&r, &mut u);
-        assert_eq!(truth.diagnose(&r, &u)[0].status, Status::Slip);
+        measure.evaluate(&r, &mut u);
+        assert_eq!(measure.diagnose(&r, &u)[0].status, Status::Slip);
     }
 }
