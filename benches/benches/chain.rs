@@ -12,7 +12,7 @@ use std::time::Duration;
 use contact_bipotential::conformance::half_space;
 use contact_bipotential::{Method, SingleContact, SolveSettings, solve};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use fe_core::block::tangent_len;
+use fe_core::tangent_len;
 use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, ThreeE};
 use nalgebra::{Matrix3, Vector3};

@@ -11,9 +11,10 @@ use std::fmt::Debug;
 
 use hyperelastic::{Material, Symmetric};
 
-use crate::element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
+use crate::element::{Element, ElementVisitor};
 use crate::error::FeError;
-use crate::mesh::{CellKind, Mesh, Symmetry};
+use crate::mesh::Mesh;
+use crate::symmetry::Symmetry;
 
 pub use dilatation::Dilatation;
 pub use solid_block::SolidBlock;
@@ -144,30 +145,31 @@ pub fn solid_block_with<M: Material>(
     density: f64,
     dilatation: Dilatation,
 ) -> Result<Box<dyn Block>, FeError> {
-    let boxed = match solid_block::cell_block(mesh, block_index)?.kind {
-        CellKind::Hex8 => boxed::<Hex8, M, 8>,
-        CellKind::Tet4 => boxed::<Tet4, M, 4>,
-        CellKind::Quad4 => boxed::<Quad4, M, 4>,
-        CellKind::Tri3 => boxed::<Tri3, M, 3>,
-        CellKind::Hex27 => boxed::<Hex27, M, 27>,
-        CellKind::Tet10 => boxed::<Tet10, M, 10>,
-        CellKind::Quad9 => boxed::<Quad9, M, 9>,
-        CellKind::Tri6 => boxed::<Tri6, M, 6>,
-    };
-    boxed(mesh, block_index, material, density, dilatation)
+    let kind = solid_block::cell_block(mesh, block_index)?.kind;
+    kind.with_element(NewBlock {
+        mesh,
+        block_index,
+        material,
+        density,
+        dilatation,
+    })
 }
 
-fn boxed<E, M, const N: usize>(
-    mesh: &Mesh,
+/// A block to be made, whatever its element.
+struct NewBlock<'a, M> {
+    mesh: &'a Mesh,
     block_index: usize,
     material: M,
     density: f64,
     dilatation: Dilatation,
-) -> Result<Box<dyn Block>, FeError>
-where
-    E: Element<Nodal = [f64; N]>,
-    M: Material,
-{
-    let block = SolidBlock::<E, M>::new(mesh, block_index, material, density)?;
-    Ok(Box::new(block.with_dilatation(dilatation)?))
+}
+
+impl<M: Material> ElementVisitor for NewBlock<'_, M> {
+    type Output = Result<Box<dyn Block>, FeError>;
+
+    fn visit<E: Element<Nodal = [f64; N]>, const N: usize>(self) -> Self::Output {
+        let block =
+            SolidBlock::<E, M>::new(self.mesh, self.block_index, self.material, self.density)?;
+        Ok(Box::new(block.with_dilatation(self.dilatation)?))
+    }
 }

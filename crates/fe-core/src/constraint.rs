@@ -4,9 +4,10 @@
 
 use nalgebra::Vector3;
 
+use crate::element::Facet;
 use crate::error::FeError;
 use crate::mass::MassMatrix;
-use crate::mesh::{Facet, Mesh};
+use crate::mesh::Mesh;
 use crate::motion::{Motion, Table};
 use crate::surface::Surface;
 

@@ -9,12 +9,14 @@ pub mod tet4;
 pub mod tri3;
 pub mod tri6;
 
+mod facet;
 pub(crate) mod quadratic;
 
 use std::fmt::Debug;
 
 use nalgebra::Matrix3;
 
+pub use facet::{Facet, FacetKind};
 pub use hex8::Hex8;
 pub use hex27::Hex27;
 pub use quad4::Quad4;
@@ -26,8 +28,162 @@ pub use tri6::Tri6;
 
 use nalgebra::Vector3;
 
-use crate::mesh::CellKind;
 use crate::quadrature::QuadraturePoint;
+
+/// What is known of a kind of cells: a row of the table, which stands in the file of its element.
+#[derive(Debug)]
+pub(crate) struct CellData {
+    /// As in the code and in scene files.
+    name: &'static str,
+    nodes: usize,
+    dim: usize,
+    degree: usize,
+    linear: CellKind,
+    quadratic: CellKind,
+    /// For each node beyond the corners, the corners in whose middle it lies.
+    parents: &'static [&'static [usize]],
+    /// Local nodes of each facet, outward.
+    facets: &'static [&'static [usize]],
+    facet_kind: FacetKind,
+    vtk_type: u8,
+}
+
+/// Something that is done with the element of a kind; see [`CellKind::with_element`].
+pub trait ElementVisitor {
+    /// Result.
+    type Output;
+
+    /// Called with the element of the kind.
+    fn visit<E: Element<Nodal = [f64; N]>, const N: usize>(self) -> Self::Output;
+}
+
+/// The list of kinds: the enum, its rows and the elements. Nothing else in the house lists them.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident: $file:ident, $nodes:literal;)*) => {
+        /// Shape of a cell, with VTK node order.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum CellKind {
+            $($(#[$doc])* $kind,)*
+        }
+
+        impl CellKind {
+            /// All kinds there are.
+            pub const ALL: [CellKind; [$($nodes),*].len()] = [$(CellKind::$kind),*];
+
+            const fn data(self) -> &'static CellData {
+                match self {
+                    $(CellKind::$kind => &$file::CELL,)*
+                }
+            }
+
+            /// Calls `visitor` with the element of this kind: from a value to a type.
+            pub fn with_element<V: ElementVisitor>(self, visitor: V) -> V::Output {
+                match self {
+                    $(CellKind::$kind => visitor.visit::<$kind, $nodes>(),)*
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    /// Trilinear hexahedron.
+    Hex8: hex8, 8;
+    /// Linear tetrahedron.
+    Tet4: tet4, 4;
+    /// Bilinear quadrilateral in the plane, counter-clockwise.
+    Quad4: quad4, 4;
+    /// Linear triangle in the plane, counter-clockwise.
+    Tri3: tri3, 3;
+    /// Triquadratic hexahedron.
+    Hex27: hex27, 27;
+    /// Quadratic tetrahedron.
+    Tet10: tet10, 10;
+    /// Biquadratic quadrilateral in the plane, counter-clockwise.
+    Quad9: quad9, 9;
+    /// Quadratic triangle in the plane, counter-clockwise.
+    Tri6: tri6, 6;
+}
+
+impl CellKind {
+    /// Name, as in the code.
+    pub const fn name(self) -> &'static str {
+        self.data().name
+    }
+
+    /// Nodes of a cell.
+    pub const fn node_count(self) -> usize {
+        self.data().nodes
+    }
+
+    /// Dimension of the cell, 2 or 3.
+    pub const fn dim(self) -> usize {
+        self.data().dim
+    }
+
+    /// Degree of the polynomials that the shape functions reproduce, 1 or 2.
+    pub const fn degree(self) -> usize {
+        self.data().degree
+    }
+
+    /// The cell of degree 1 with the same corners, whose nodes are the first of this one's.
+    pub const fn linear(self) -> CellKind {
+        self.data().linear
+    }
+
+    /// The cell of degree 2 with the same corners.
+    pub const fn quadratic(self) -> CellKind {
+        self.data().quadratic
+    }
+
+    /// Number of corners, which are the first nodes.
+    pub const fn corner_count(self) -> usize {
+        self.linear().node_count()
+    }
+
+    /// For each node beyond the corners, the corners in whose middle it lies; none for cells of degree 1.
+    pub(crate) const fn parents(self) -> &'static [&'static [usize]] {
+        self.data().parents
+    }
+
+    /// Local nodes of each facet, outward as in [`Facet`].
+    pub const fn facets(self) -> &'static [&'static [usize]] {
+        self.data().facets
+    }
+
+    /// Kind of the facets.
+    pub const fn facet_kind(self) -> FacetKind {
+        self.data().facet_kind
+    }
+
+    /// VTK's number for the cell type.
+    pub const fn vtk_type(self) -> u8 {
+        self.data().vtk_type
+    }
+
+    /// First quadrature point whose Jacobian is not positive, with that Jacobian \[m^dim\].
+    pub(crate) fn bad_jacobian(
+        self,
+        points: &[Vector3<f64>],
+        cell: &[u32],
+    ) -> Option<(usize, f64)> {
+        self.with_element(BadJacobian { points, cell })
+    }
+}
+
+/// A cell whose Jacobians are checked.
+struct BadJacobian<'a> {
+    points: &'a [Vector3<f64>],
+    cell: &'a [u32],
+}
+
+impl ElementVisitor for BadJacobian<'_> {
+    type Output = Option<(usize, f64)>;
+
+    fn visit<E: Element<Nodal = [f64; N]>, const N: usize>(self) -> Self::Output {
+        bad_jacobian::<E, N>(self.points, self.cell)
+    }
+}
 
 /// Values of the shape functions: an array `[f64; N]`.
 pub trait Nodal: Copy + Debug + Send + Sync + AsRef<[f64]> + 'static {}
@@ -38,8 +194,8 @@ impl<const N: usize> Nodal for [f64; N] {}
 ///
 /// Plane elements do not depend on the third reference coordinate: their derivatives with respect to it are zero.
 ///
-/// A new element is one file with this implementation and one line in [`CellKind`]; the battery
-/// [`crate::conformance::check_element`] tells what is wrong with it.
+/// A new element is one file with this implementation and its row of the table, and one line in the list of kinds below;
+/// the battery `conformance::check_element` tells what is wrong with it.
 pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
     /// Kind of the cell.
     const KIND: CellKind;
@@ -121,10 +277,7 @@ where
 }
 
 /// First quadrature point with a Jacobian that is not positive and finite, and its value \[m^3; m^2 in the plane\].
-pub(crate) fn bad_jacobian<E, const N: usize>(
-    points: &[Vector3<f64>],
-    cell: &[u32],
-) -> Option<(usize, f64)>
+fn bad_jacobian<E, const N: usize>(points: &[Vector3<f64>], cell: &[u32]) -> Option<(usize, f64)>
 where
     E: Element<Nodal = [f64; N]>,
 {

@@ -12,40 +12,50 @@
 //! Unknowns are displacements \[m\], stored flat: component `i` of node `a` is entry `dim * a + i`.
 //! Second-order symmetric tensors are stored as 11 22 33 12 13 23.
 
-pub mod block;
-pub mod conformance;
-pub mod constraint;
 pub mod element;
-pub mod error;
 pub mod kinematics;
-pub mod mass;
-pub mod mesh;
-pub mod motion;
-pub mod pattern;
 pub mod quadrature;
-pub mod solid;
-pub mod surface;
 
+#[cfg(any(test, feature = "conformance"))]
+pub mod conformance;
+
+mod adjacency;
+mod block;
+mod constraint;
+mod error;
+mod mass;
+mod mesh;
+mod motion;
 mod parallel;
+mod pattern;
+mod solid;
+mod surface;
+mod symmetry;
 
 pub use nalgebra;
 
-pub use block::{Block, Dilatation, ElementState, SolidBlock, solid_block, solid_block_with};
-pub use constraint::{DeadTraction, Dirichlet, Gravity};
-pub use element::{Element, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6};
-pub use error::{FeError, MeshError};
-pub use mass::MassMatrix;
-pub use mesh::generate::{
-    AnnulusMesh, BoxMesh, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh, HalfDiscMesh,
-    Pole, QuarterDiscMesh, RectangleMesh,
+pub use block::{
+    Block, Dilatation, ElementState, SolidBlock, solid_block, solid_block_with, tangent_index,
+    tangent_len,
 };
+pub use constraint::{DeadTraction, Dirichlet, Gravity};
+pub use element::{
+    CellKind, Element, ElementVisitor, Facet, FacetKind, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10,
+    Tri3, Tri6,
+};
+pub use error::FeError;
+pub use mass::MassMatrix;
 #[cfg(feature = "serde")]
 pub use mesh::text;
-pub use mesh::{CellBlock, CellKind, Facet, FacetKind, Mesh, Symmetry};
+pub use mesh::{
+    AnnulusMesh, BoxMesh, CellBlock, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh,
+    HalfDiscMesh, Mesh, MeshError, Pole, QuarterDiscMesh, RectangleMesh,
+};
 pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};
 pub use solid::{ElementWorkspace, Solid};
-pub use surface::Surface;
+pub use surface::{Surface, current_positions};
+pub use symmetry::Symmetry;
 
 /// Relative difference \[-\] below which two numbers are the same: 64 units in the last place. A sum of a few dozen terms,
 /// or a chain of as many operations, stays within it; what differs by more differs for another reason than rounding.

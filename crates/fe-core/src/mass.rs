@@ -1,9 +1,8 @@
 //! Mass matrices.
 
+use crate::adjacency::Adjacency;
 use crate::block::Block;
 use crate::parallel::for_each_row;
-use crate::pattern::Adjacency;
-use crate::solid::Solid;
 
 /// A symmetric mass matrix \[kg; kg/m in plane strain\]: one number for each pair of nodes, the same for each component.
 ///
@@ -17,11 +16,15 @@ pub struct MassMatrix {
 }
 
 impl MassMatrix {
-    /// The matrix that belongs to the shape functions of the solid's elements.
-    pub(crate) fn consistent(solid: &Solid) -> MassMatrix {
-        let Adjacency { offsets, columns } = Adjacency::new(solid);
+    /// The matrix that belongs to the shape functions of the blocks' elements.
+    pub(crate) fn consistent(
+        dim: usize,
+        adjacency: Adjacency,
+        blocks: &[Box<dyn Block>],
+    ) -> MassMatrix {
+        let Adjacency { offsets, columns } = adjacency;
         let mut values = vec![0.0; columns.len()];
-        for_each_element(solid, |_, cell, mass| {
+        for_each_element(blocks, |_, cell, mass| {
             for (&a, row) in cell.iter().zip(mass.chunks_exact(cell.len())) {
                 let range = offsets[a as usize]..offsets[a as usize + 1];
                 let neighbours = &columns[range.clone()];
@@ -31,7 +34,7 @@ impl MassMatrix {
             }
         });
         MassMatrix {
-            dim: solid.dim(),
+            dim,
             offsets,
             columns,
             values,
@@ -41,9 +44,9 @@ impl MassMatrix {
     /// Diagonal matrix. Elements of degree 1 give each node its row sum. Row sums of quadratic triangles and
     /// tetrahedra are zero or negative at corners: elements of degree 2 share their mass in the proportions of their
     /// diagonal instead, which is the same for rectangles and boxes.
-    pub(crate) fn lumped(solid: &Solid) -> MassMatrix {
-        let mut masses = vec![0.0; solid.node_count()];
-        for_each_element(solid, |block, cell, mass| {
+    pub(crate) fn lumped(dim: usize, nodes: usize, blocks: &[Box<dyn Block>]) -> MassMatrix {
+        let mut masses = vec![0.0; nodes];
+        for_each_element(blocks, |block, cell, mass| {
             let rows = mass.chunks_exact(cell.len());
             let diagonal = rows.clone().enumerate().map(|(a, row)| row[a]);
             let total: f64 = mass.iter().sum();
@@ -55,7 +58,7 @@ impl MassMatrix {
                 };
             }
         });
-        MassMatrix::diagonal(solid.dim(), masses)
+        MassMatrix::diagonal(dim, masses)
     }
 
     /// Diagonal matrix from the mass of each node \[kg\].
@@ -140,8 +143,8 @@ impl MassMatrix {
 }
 
 /// Calls `add(block, cell, mass)` for the consistent mass of each element, in order.
-fn for_each_element(solid: &Solid, mut add: impl FnMut(&dyn Block, &[u32], &[f64])) {
-    for block in solid.blocks() {
+fn for_each_element(blocks: &[Box<dyn Block>], mut add: impl FnMut(&dyn Block, &[u32], &[f64])) {
+    for block in blocks {
         let nodes = block.nodes_per_element();
         let mut masses = vec![0.0; block.element_count() * nodes * nodes];
         block.mass(&mut masses);

@@ -1,9 +1,7 @@
 //! Meshes: points, blocks of cells, and named sets of nodes and facets.
 
-pub mod generate;
-
-mod facet;
-mod kind;
+mod error;
+mod generate;
 mod quadratic;
 #[cfg(feature = "serde")]
 pub mod text;
@@ -12,53 +10,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-pub use facet::{Facet, FacetKind};
-pub use kind::CellKind;
+pub use error::MeshError;
+pub use generate::{
+    AnnulusMesh, BoxMesh, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh, HalfDiscMesh,
+    Pole, QuarterDiscMesh, RectangleMesh,
+};
 
-use crate::error::MeshError;
-
-/// What is the same all along a direction that the mesh does not have.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub enum Symmetry {
-    /// The mesh has all three directions.
-    #[default]
-    None,
-    /// No displacement along z, nothing changes with z: forces \[N/m\], masses \[kg/m\] and energies \[J/m\] are
-    /// those of one metre of thickness.
-    PlaneStrain,
-    /// Nothing changes around the y axis, no torsion: x is the radius, never negative. Forces, masses, areas and
-    /// energies are those of the whole ring. Nodes on the axis must be held in x.
-    Axisymmetric,
-}
-
-impl Symmetry {
-    /// Unknowns per node, 2 or 3.
-    pub const fn dim(self) -> usize {
-        match self {
-            Symmetry::None => 3,
-            Symmetry::PlaneStrain | Symmetry::Axisymmetric => 2,
-        }
-    }
-
-    /// Demands that two meshes, or a mesh and a block, stand for the same.
-    pub(crate) fn same_as(self, actual: Symmetry) -> Result<(), MeshError> {
-        if self == actual {
-            return Ok(());
-        }
-        Err(MeshError::Symmetry {
-            expected: self,
-            actual,
-        })
-    }
-
-    /// What a unit of the mesh stands for at the coordinate `x` \[m\]: the circumference `2 pi x` of a ring, else one.
-    pub(crate) fn extent(self, x: f64) -> f64 {
-        match self {
-            Symmetry::Axisymmetric => std::f64::consts::TAU * x,
-            Symmetry::None | Symmetry::PlaneStrain => 1.0,
-        }
-    }
-}
+use crate::element::{CellKind, Facet};
+use crate::symmetry::Symmetry;
 
 /// Cells of one kind that share a material.
 #[derive(Debug, Clone, PartialEq)]
@@ -112,7 +71,7 @@ impl Mesh {
         if self.blocks.is_empty() && self.points.is_empty() {
             (self.dim, self.symmetry) = (other.dim, other.symmetry);
         }
-        self.symmetry.same_as(other.symmetry)?;
+        check_symmetry(self.symmetry, other.symmetry)?;
         let rename = |name: String| match prefix {
             "" => name,
             _ => format!("{prefix}.{name}"),
@@ -182,16 +141,14 @@ impl Mesh {
     /// # Errors
     /// The first defect found, with block and element.
     pub fn validate(&self) -> Result<(), MeshError> {
-        if self.dim != self.symmetry.dim() {
-            return Err(MeshError::Dimension {
-                dim: self.dim,
-                symmetry: self.symmetry,
-            });
-        }
         self.validate_points()?;
         let mut used = vec![false; self.points.len()];
         for block in &self.blocks {
-            self.validate_block(block, &mut used)?;
+            self.validate_cells(block)?;
+            block
+                .cells
+                .iter()
+                .for_each(|&node| used[node as usize] = true);
         }
         if let Some(node) = used.iter().position(|used| !used) {
             return Err(MeshError::OrphanNode { node });
@@ -200,7 +157,19 @@ impl Mesh {
         self.validate_facet_sets()
     }
 
+    /// The part of [`Mesh::validate`] that the elements of one block rely on.
+    pub(crate) fn validate_block(&self, block: &CellBlock) -> Result<(), MeshError> {
+        self.validate_points()?;
+        self.validate_cells(block)
+    }
+
     fn validate_points(&self) -> Result<(), MeshError> {
+        if self.dim != self.symmetry.dim() {
+            return Err(MeshError::Dimension {
+                dim: self.dim,
+                symmetry: self.symmetry,
+            });
+        }
         if self.points.is_empty() {
             return Err(MeshError::Empty { what: "points" });
         }
@@ -224,7 +193,7 @@ impl Mesh {
         }
     }
 
-    fn validate_block(&self, block: &CellBlock, used: &mut [bool]) -> Result<(), MeshError> {
+    fn validate_cells(&self, block: &CellBlock) -> Result<(), MeshError> {
         let name = || block.name.clone();
         let (kind, nodes) = (block.kind, block.kind.node_count());
         if kind.dim() != self.dim {
@@ -243,7 +212,6 @@ impl Mesh {
         }
         for (element, cell) in block.iter().enumerate() {
             self.validate_cell(block, element, cell)?;
-            cell.iter().for_each(|&node| used[node as usize] = true);
         }
         Ok(())
     }
@@ -315,6 +283,14 @@ impl Mesh {
         }
         Ok(())
     }
+}
+
+/// Demands that two meshes, or a mesh and a block, stand for the same.
+pub(crate) fn check_symmetry(expected: Symmetry, actual: Symmetry) -> Result<(), MeshError> {
+    if expected == actual {
+        return Ok(());
+    }
+    Err(MeshError::Symmetry { expected, actual })
 }
 
 fn unknown_set<'a>(

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::adjacency::Adjacency;
 use crate::block::tangent_index;
 use crate::error::{FeError, check_length};
 use crate::mass::MassMatrix;
@@ -11,36 +12,10 @@ use crate::solid::{ElementWorkspace, Solid};
 /// Marks a degree of freedom that is not an unknown of the system, and a nonzero without mass.
 const NONE: u32 = u32::MAX;
 
-/// Neighbours of each node through elements, itself included, sorted.
-#[derive(Debug, Clone)]
-pub(crate) struct Adjacency {
-    pub(crate) offsets: Vec<usize>,
-    pub(crate) columns: Vec<u32>,
-}
-
-impl Adjacency {
-    pub(crate) fn new(solid: &Solid) -> Adjacency {
-        let mut offsets = vec![0];
-        let mut columns = Vec::new();
-        let mut row: Vec<u32> = Vec::new();
-        for node in 0..solid.node_count() {
-            row.clear();
-            for &slot in solid.slots_of(node) {
-                row.extend(solid.locate_slot(slot as usize).cell);
-            }
-            row.sort_unstable();
-            row.dedup();
-            columns.extend(&row);
-            offsets.push(columns.len());
-        }
-        Adjacency { offsets, columns }
-    }
-}
-
 /// Graph of the nodes, without loops: offsets (`nodes + 1` long) and neighbours, sorted. Two nodes are
 /// neighbours if an element has both.
 pub fn node_adjacency(solid: &Solid) -> (Vec<usize>, Vec<u32>) {
-    let with_loops = Adjacency::new(solid);
+    let with_loops = solid.adjacency();
     let mut offsets = vec![0];
     let mut columns = Vec::with_capacity(with_loops.columns.len());
     for (node, pair) in with_loops.offsets.windows(2).enumerate() {
@@ -89,7 +64,7 @@ impl SymmetricPattern {
     pub fn new(solid: &Solid, equation: &[u32], n: usize) -> Result<SymmetricPattern, FeError> {
         check_length("equation numbers", solid.dof_count(), equation.len())?;
         let dofs = invert(equation, n)?;
-        let adjacency = Adjacency::new(solid);
+        let adjacency = solid.adjacency();
         let builder = Builder {
             solid,
             equation,

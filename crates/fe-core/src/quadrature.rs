@@ -82,12 +82,15 @@ const GAUSS_4: [[f64; 4]; 2] = [
     ],
 ];
 
+/// Corners of the square, counter-clockwise as the nodes of VTK.
+const SQUARE: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+
 const fn hexahedron_8() -> [QuadraturePoint; 8] {
-    let nodes = &crate::element::hex8::REFERENCE_NODES;
     let mut rule = [ORIGIN; 8];
     let mut q = 0;
     while q < 8 {
-        let [x, y, z] = nodes[q];
+        let [x, y] = SQUARE[q % 4];
+        let z = if q < 4 { -1.0 } else { 1.0 };
         rule[q].xi = [x * GAUSS_2, y * GAUSS_2, z * GAUSS_2];
         rule[q].weight = 1.0;
         q += 1;
@@ -123,11 +126,10 @@ const fn hexahedron_64() -> [QuadraturePoint; 64] {
 }
 
 const fn quadrilateral_4() -> [QuadraturePoint; 4] {
-    let nodes = &crate::element::quad4::REFERENCE_NODES;
     let mut rule = [ORIGIN; 4];
     let mut q = 0;
     while q < 4 {
-        rule[q].xi = [nodes[q][0] * GAUSS_2, nodes[q][1] * GAUSS_2, 0.0];
+        rule[q].xi = [SQUARE[q][0] * GAUSS_2, SQUARE[q][1] * GAUSS_2, 0.0];
         rule[q].weight = 1.0;
         q += 1;
     }

@@ -1,9 +1,10 @@
 //! Solids: mesh, blocks, and the ordered gather of what elements compute.
 
+use crate::adjacency::Adjacency;
 use crate::block::{Block, tangent_index, tangent_len};
 use crate::error::{FeError, check_length};
 use crate::mass::MassMatrix;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MeshError, check_symmetry};
 use crate::parallel::for_each_row;
 
 /// Deformable bodies: a mesh, its blocks, and the maps from elements to nodes. Immutable.
@@ -59,7 +60,7 @@ impl Solid {
         mesh.validate()?;
         let nodes = mesh.points.len();
         for block in &blocks {
-            mesh.symmetry.same_as(block.symmetry())?;
+            check_symmetry(mesh.symmetry, block.symmetry())?;
             if let Some(&node) = block.connectivity().iter().find(|&&n| n as usize >= nodes) {
                 return Err(FeError::Index {
                     what: "node",
@@ -71,7 +72,7 @@ impl Solid {
         let ranges = block_ranges(&blocks)?;
         let slots = NodeSlots::new(&blocks, nodes);
         if let Some(node) = (0..nodes).find(|&node| slots.of(node).is_empty()) {
-            return Err(FeError::Mesh(crate::MeshError::OrphanNode { node }));
+            return Err(FeError::Mesh(MeshError::OrphanNode { node }));
         }
         let bodies = connected_components(&blocks, nodes);
         Ok(Solid {
@@ -202,13 +203,22 @@ impl Solid {
 
     /// Mass matrix that belongs to the shape functions \[kg\].
     pub fn consistent_mass(&self) -> MassMatrix {
-        MassMatrix::consistent(self)
+        MassMatrix::consistent(self.dim(), self.adjacency(), &self.blocks)
     }
 
     /// Diagonal mass matrix \[kg\], positive: the row sums of the consistent one; elements of degree 2 share their mass
     /// in the proportions of its diagonal.
     pub fn lumped_mass(&self) -> MassMatrix {
-        MassMatrix::lumped(self)
+        MassMatrix::lumped(self.dim(), self.node_count(), &self.blocks)
+    }
+
+    /// Neighbours of each node through elements.
+    pub(crate) fn adjacency(&self) -> Adjacency {
+        Adjacency::new(self.node_count(), |node, row| {
+            for &slot in self.slots_of(node) {
+                row.extend(self.locate_slot(slot as usize).cell);
+            }
+        })
     }
 
     /// Entries of all element tangents.

@@ -5,8 +5,9 @@ mod winding;
 
 use nalgebra::Vector3;
 
+use crate::element::Facet;
 use crate::error::FeError;
-use crate::mesh::{Facet, Mesh};
+use crate::mesh::Mesh;
 
 /// A part of the boundary of one or more bodies.
 ///

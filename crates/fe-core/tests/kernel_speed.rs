@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use fe_core::block::{Block, tangent_len};
+use fe_core::{Block, tangent_len};
 use fe_core::{BoxMesh, CellKind, RectangleMesh, Solid, SymmetricPattern, Symmetry, solid_block};
 use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff};
 use nalgebra::Vector3;

@@ -10,8 +10,9 @@ use super::projection::{Plane, Points, Space, Workspace};
 use super::{Block, ElementState, plane_kernel, projected_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
-use crate::mesh::{CellBlock, Mesh, Symmetry};
+use crate::mesh::{CellBlock, Mesh};
 use crate::parallel::{ELEMENTS_PER_TASK, sequential};
+use crate::symmetry::Symmetry;
 
 /// Elements `E` of one mesh block with the material `M`, in total Lagrangian form: in space, in plane strain, or
 /// axisymmetric, as the mesh says.
@@ -48,7 +49,7 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
     /// The elements of `mesh.blocks[block_index]` with a material and a density \[kg/m^3\].
     ///
     /// # Errors
-    /// [`FeError::Mesh`] if the mesh is invalid, [`FeError::Index`] if there is no such block,
+    /// [`FeError::Mesh`] if its points or the cells of the block are invalid (its sets are left to [`crate::Solid::new`]), [`FeError::Index`] if there is no such block,
     /// [`FeError::CellKind`] if its cells are not `E`, [`FeError::Parameter`] unless the density is positive
     /// and finite.
     pub fn new<const N: usize>(
@@ -62,7 +63,7 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
     {
         let block = cell_block(mesh, block_index)?;
         check_kind::<E>(block)?;
-        mesh.validate()?;
+        mesh.validate_block(block)?;
         check_density(&block.name, density)?;
         let points = block.cell_count() * E::POINTS;
         let mut gradients = Vec::with_capacity(points);

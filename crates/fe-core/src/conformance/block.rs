@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::{AGREEMENT, DIFFERENCES, Violation, direction, largest, same, same_entries};
 use crate::block::{Block, tangent_index, tangent_len};
 use crate::error::FeError;
-use crate::mesh::Symmetry;
 use crate::motion::{Interpolation, Motion, Rotation, Table};
+use crate::symmetry::Symmetry;
 
 /// Step of the differences relative to the size of the mesh. Two steps, of which the second is half as long, are
 /// extrapolated: errors of order `1e-16` and `1e-12`.

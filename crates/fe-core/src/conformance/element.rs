@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::{AGREEMENT, Violation, same, same_entries};
+use crate::element::Facet;
 use crate::element::{Element, jacobian};
-use crate::mesh::Facet;
 use crate::quadrature::QuadraturePoint;
 
 /// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields

@@ -1,8 +1,7 @@
 //! Triquadratic hexahedron, 27 nodes, 27 Gauss points.
 
-use super::Element;
 use super::quadratic::{line, line_derivative};
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{HEXAHEDRON_27, HEXAHEDRON_64, QuadraturePoint};
 
 /// Triquadratic hexahedron on \[-1, 1\]^3.
@@ -41,7 +40,7 @@ pub const REFERENCE_NODES: [[f64; 3]; 27] = [
 ];
 
 /// Local nodes of the facets, outward: corners, middles of the edges, centre; faces as those of the trilinear one.
-pub static FACETS: [&[usize]; 6] = [
+static FACETS: [&[usize]; 6] = [
     &[0, 4, 7, 3, 16, 15, 19, 11, 20],
     &[1, 2, 6, 5, 9, 18, 13, 17, 21],
     &[0, 1, 5, 4, 8, 17, 12, 16, 22],
@@ -51,7 +50,7 @@ pub static FACETS: [&[usize]; 6] = [
 ];
 
 /// Corners between which the other nodes lie.
-pub static PARENTS: [&[usize]; 19] = [
+static PARENTS: [&[usize]; 19] = [
     &[0, 1],
     &[1, 2],
     &[2, 3],
@@ -72,6 +71,20 @@ pub static PARENTS: [&[usize]; 19] = [
     &[4, 5, 6, 7],
     &[0, 1, 2, 3, 4, 5, 6, 7],
 ];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Hex27",
+    nodes: 27,
+    dim: 3,
+    degree: 2,
+    linear: CellKind::Hex8,
+    quadratic: CellKind::Hex27,
+    parents: &PARENTS,
+    facets: &FACETS,
+    facet_kind: FacetKind::Quad9,
+    vtk_type: 29,
+};
 
 impl Element for Hex27 {
     const KIND: CellKind = CellKind::Hex27;

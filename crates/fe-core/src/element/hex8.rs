@@ -1,7 +1,6 @@
 //! Trilinear hexahedron, 8 nodes, 8 Gauss points.
 
-use super::Element;
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{HEXAHEDRON_8, HEXAHEDRON_27, QuadraturePoint};
 
 /// Trilinear hexahedron on \[-1, 1\]^3.
@@ -21,7 +20,7 @@ pub const REFERENCE_NODES: [[f64; 3]; 8] = [
 ];
 
 /// Local nodes of the facets, outward: x, y, z low and high.
-pub static FACETS: [&[usize]; 6] = [
+static FACETS: [&[usize]; 6] = [
     &[0, 4, 7, 3],
     &[1, 2, 6, 5],
     &[0, 1, 5, 4],
@@ -29,6 +28,20 @@ pub static FACETS: [&[usize]; 6] = [
     &[0, 3, 2, 1],
     &[4, 5, 6, 7],
 ];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Hex8",
+    nodes: 8,
+    dim: 3,
+    degree: 1,
+    linear: CellKind::Hex8,
+    quadratic: CellKind::Hex27,
+    parents: &[],
+    facets: &FACETS,
+    facet_kind: FacetKind::Quad4,
+    vtk_type: 12,
+};
 
 impl Element for Hex8 {
     const KIND: CellKind = CellKind::Hex8;

@@ -1,7 +1,6 @@
 //! Bilinear quadrilateral, 4 nodes, 4 Gauss points.
 
-use super::Element;
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QUADRILATERAL_4, QUADRILATERAL_9, QuadraturePoint};
 
 /// Bilinear quadrilateral on \[-1, 1\]^2.
@@ -17,7 +16,21 @@ pub const REFERENCE_NODES: [[f64; 3]; 4] = [
 ];
 
 /// Local nodes of the edges, the cell to their left.
-pub static FACETS: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
+static FACETS: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Quad4",
+    nodes: 4,
+    dim: 2,
+    degree: 1,
+    linear: CellKind::Quad4,
+    quadratic: CellKind::Quad9,
+    parents: &[],
+    facets: &FACETS,
+    facet_kind: FacetKind::Edge2,
+    vtk_type: 9,
+};
 
 impl Element for Quad4 {
     const KIND: CellKind = CellKind::Quad4;

@@ -1,8 +1,8 @@
 //! Biquadratic quadrilateral, 9 nodes, 9 Gauss points.
 
-use super::Element;
+use super::facet::QUADRILATERAL_PARENTS;
 use super::quadratic::{line, line_derivative};
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QUADRILATERAL_9, QUADRILATERAL_16, QuadraturePoint};
 
 /// Biquadratic quadrilateral on \[-1, 1\]^2.
@@ -23,10 +23,21 @@ pub const REFERENCE_NODES: [[f64; 3]; 9] = [
 ];
 
 /// Local nodes of the edges, the cell to their left: ends, middle.
-pub static FACETS: [&[usize]; 4] = [&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]];
+static FACETS: [&[usize]; 4] = [&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]];
 
-/// Corners between which the other nodes lie.
-pub static PARENTS: [&[usize]; 5] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 1, 2, 3]];
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Quad9",
+    nodes: 9,
+    dim: 2,
+    degree: 2,
+    linear: CellKind::Quad4,
+    quadratic: CellKind::Quad9,
+    parents: &QUADRILATERAL_PARENTS,
+    facets: &FACETS,
+    facet_kind: FacetKind::Edge3,
+    vtk_type: 28,
+};
 
 impl Element for Quad9 {
     const KIND: CellKind = CellKind::Quad9;

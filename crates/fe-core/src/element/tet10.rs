@@ -1,8 +1,7 @@
 //! Quadratic tetrahedron, 10 nodes, 8 points.
 
-use super::Element;
 use super::quadratic::{simplex, simplex_derivatives};
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QuadraturePoint, TETRAHEDRON_8, TETRAHEDRON_14};
 
 /// Quadratic tetrahedron on the corner of the unit cube.
@@ -24,7 +23,7 @@ pub const REFERENCE_NODES: [[f64; 3]; 10] = [
 ];
 
 /// Local nodes of the facets, outward: corners, middles of the edges.
-pub static FACETS: [&[usize]; 4] = [
+static FACETS: [&[usize]; 4] = [
     &[0, 2, 1, 6, 5, 4],
     &[0, 1, 3, 4, 8, 7],
     &[1, 2, 3, 5, 9, 8],
@@ -32,7 +31,21 @@ pub static FACETS: [&[usize]; 4] = [
 ];
 
 /// Corners between which the other nodes lie.
-pub static PARENTS: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]];
+static PARENTS: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Tet10",
+    nodes: 10,
+    dim: 3,
+    degree: 2,
+    linear: CellKind::Tet4,
+    quadratic: CellKind::Tet10,
+    parents: &PARENTS,
+    facets: &FACETS,
+    facet_kind: FacetKind::Tri6,
+    vtk_type: 24,
+};
 
 impl Element for Tet10 {
     const KIND: CellKind = CellKind::Tet10;

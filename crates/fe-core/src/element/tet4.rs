@@ -1,7 +1,6 @@
 //! Linear tetrahedron, 4 nodes, 1 point.
 
-use super::Element;
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QuadraturePoint, TETRAHEDRON_1, TETRAHEDRON_4};
 
 /// Linear tetrahedron on the corner of the unit cube.
@@ -17,7 +16,21 @@ pub const REFERENCE_NODES: [[f64; 3]; 4] = [
 ];
 
 /// Local nodes of the facets, outward.
-pub static FACETS: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+static FACETS: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Tet4",
+    nodes: 4,
+    dim: 3,
+    degree: 1,
+    linear: CellKind::Tet4,
+    quadratic: CellKind::Tet10,
+    parents: &[],
+    facets: &FACETS,
+    facet_kind: FacetKind::Tri3,
+    vtk_type: 10,
+};
 
 impl Element for Tet4 {
     const KIND: CellKind = CellKind::Tet4;

@@ -1,7 +1,6 @@
 //! Linear triangle, 3 nodes, 1 point.
 
-use super::Element;
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QuadraturePoint, TRIANGLE_1, TRIANGLE_6};
 
 /// Linear triangle on the corner of the unit square.
@@ -12,7 +11,21 @@ pub struct Tri3;
 pub const REFERENCE_NODES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Local nodes of the edges, the cell to their left.
-pub static FACETS: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
+static FACETS: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
+
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Tri3",
+    nodes: 3,
+    dim: 2,
+    degree: 1,
+    linear: CellKind::Tri3,
+    quadratic: CellKind::Tri6,
+    parents: &[],
+    facets: &FACETS,
+    facet_kind: FacetKind::Edge2,
+    vtk_type: 5,
+};
 
 impl Element for Tri3 {
     const KIND: CellKind = CellKind::Tri3;

@@ -1,8 +1,8 @@
 //! Quadratic triangle, 6 nodes, 6 points.
 
-use super::Element;
+use super::facet::TRIANGLE_PARENTS;
 use super::quadratic::{simplex, simplex_derivatives};
-use crate::mesh::CellKind;
+use super::{CellData, CellKind, Element, FacetKind};
 use crate::quadrature::{QuadraturePoint, TRIANGLE_6, TRIANGLE_7};
 
 /// Quadratic triangle on the corner of the unit square.
@@ -20,10 +20,21 @@ pub const REFERENCE_NODES: [[f64; 3]; 6] = [
 ];
 
 /// Local nodes of the edges, the cell to their left: ends, middle.
-pub static FACETS: [&[usize]; 3] = [&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]];
+static FACETS: [&[usize]; 3] = [&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]];
 
-/// Corners between which the other nodes lie.
-pub static PARENTS: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
+/// Row of the table of kinds.
+pub(super) static CELL: CellData = CellData {
+    name: "Tri6",
+    nodes: 6,
+    dim: 2,
+    degree: 2,
+    linear: CellKind::Tri3,
+    quadratic: CellKind::Tri6,
+    parents: &TRIANGLE_PARENTS,
+    facets: &FACETS,
+    facet_kind: FacetKind::Edge3,
+    vtk_type: 22,
+};
 
 impl Element for Tri6 {
     const KIND: CellKind = CellKind::Tri6;
@@ -36,11 +47,11 @@ impl Element for Tri6 {
     }
 
     fn shape(xi: &[f64; 3]) -> [f64; 6] {
-        simplex([1.0 - xi[0] - xi[1], xi[0], xi[1]], &PARENTS)
+        simplex([1.0 - xi[0] - xi[1], xi[0], xi[1]], &TRIANGLE_PARENTS)
     }
 
     fn shape_derivatives(xi: &[f64; 3]) -> [[f64; 6]; 3] {
-        simplex_derivatives([1.0 - xi[0] - xi[1], xi[0], xi[1]], &PARENTS)
+        simplex_derivatives([1.0 - xi[0] - xi[1], xi[0], xi[1]], &TRIANGLE_PARENTS)
     }
 
     fn rule() -> &'static [QuadraturePoint] {

@@ -22,8 +22,10 @@ pub use rectangle::RectangleMesh;
 
 use nalgebra::Vector3;
 
-use super::{CellBlock, CellKind, Facet, Mesh, Symmetry};
-use crate::error::MeshError;
+use super::{CellBlock, Mesh};
+use crate::element::{CellKind, Facet};
+use crate::mesh::MeshError;
+use crate::symmetry::Symmetry;
 
 /// Where the dome of a half body points along its last axis: y in the plane, z in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

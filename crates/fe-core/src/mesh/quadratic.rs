@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use super::{CellBlock, Facet, Mesh};
-use crate::error::MeshError;
+use super::{CellBlock, Mesh};
+use crate::element::Facet;
+use crate::mesh::MeshError;
 
 /// No corner.
 const NONE: u32 = u32::MAX;

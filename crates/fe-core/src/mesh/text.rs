@@ -9,7 +9,7 @@ use serde::{Deserializer, Serializer};
 
 pub(super) use serde::{Deserialize, Serialize};
 
-use super::CellKind;
+use crate::element::CellKind;
 
 /// A grading that changes nothing \[-\].
 pub(super) fn uniform<const N: usize>() -> [f64; N] {

@@ -4,8 +4,9 @@ use nalgebra::Vector3;
 
 use crate::element::quadratic::{line, line_derivative};
 use crate::element::{Element, Quad4, Quad9, Tri6};
-use crate::mesh::{Facet, FacetKind, Symmetry};
+use crate::element::{Facet, FacetKind};
 use crate::quadrature::GAUSS_3;
+use crate::symmetry::Symmetry;
 
 /// Below this part of the area of a facet the share of a node is no measure of what acts there.
 const LEAST: f64 = 0.01;

@@ -1,10 +1,10 @@
 //! Solid, pattern and mass against dense assembly; the same bits for any number of threads.
 
-use fe_core::block::{tangent_index, tangent_len};
 use fe_core::{
     BoxMesh, CellKind, FeError, MassMatrix, Mesh, Solid, SymmetricPattern, Symmetry,
     node_adjacency, solid_block,
 };
+use fe_core::{tangent_index, tangent_len};
 use proptest::prelude::*;
 
 use crate::common::{self, blatz_ko, distorted_box, distorted_rectangle, neo_hookean};

@@ -1,9 +1,9 @@
 //! Elements and blocks: the conformance battery, the papers' matrices as an oracle, refusals.
 
-use fe_core::block::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::conformance::{self, Violation};
 use fe_core::element::{corner_points, reference_gradients};
 use fe_core::kinematics::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
+use fe_core::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::{
     BoxMesh, CellKind, Element, FeError, Hex8, Hex27, Mesh, Motion, Quad4, Quad9, Rotation, Solid,
     SolidBlock, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use fe_core::block::{ElementState, tangent_index, tangent_len};
 use fe_core::{CellKind, Dilatation, Mesh, RectangleMesh, Symmetry, solid_block_with};
+use fe_core::{ElementState, tangent_index, tangent_len};
 use hyperelastic::{ElasticConstants, SaintVenantKirchhoff};
 use nalgebra::Vector3;
 

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use fe_core::block::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::conformance;
+use fe_core::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::{
     BoxMesh, CellKind, DeadTraction, Dirichlet, FeError, Gravity, Mesh, MeshError, Motion,
     RectangleMesh, Solid, Surface, SymmetricPattern, Symmetry, Table, solid_block,

@@ -1,7 +1,7 @@
 //! Projected dilatation: the battery, what it must not change, and what it must mend.
 
-use fe_core::block::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::conformance;
+use fe_core::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::{
     CellKind, Dilatation, FeError, Mesh, RectangleMesh, Solid, Symmetry, solid_block_with,
 };

@@ -1,6 +1,6 @@
 //! Areas, normals and neighbours of surfaces.
 
-use fe_core::surface::current_positions;
+use fe_core::current_positions;
 use fe_core::{BoxMesh, CellKind, Facet, Mesh, Motion, Rotation, Surface, Symmetry, Table};
 use nalgebra::Vector3;
 use proptest::prelude::*;

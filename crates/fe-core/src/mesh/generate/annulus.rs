@@ -7,10 +7,12 @@ use super::{
     check_kind, into_kind, name_side, require, require_cells, require_finite, require_indices,
     require_positive, single_block,
 };
-use crate::error::MeshError;
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, even, plane, quadrilaterals};
-use crate::mesh::{CellKind, Mesh, Symmetry};
+use crate::symmetry::Symmetry;
 
 /// A plane ring of quadrilaterals, or each cut into two triangles.
 ///

@@ -1,7 +1,7 @@
 //! Grid lines along one axis, in pieces.
 
 use super::{require, require_cells, require_indices, require_positive};
-use crate::error::MeshError;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, even};
 

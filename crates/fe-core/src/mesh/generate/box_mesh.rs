@@ -5,10 +5,11 @@ use nalgebra::Vector3;
 use super::axis::GridAxis;
 use super::grid::GridMesh;
 use super::{check_grid, check_kind};
-use crate::error::MeshError;
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, hexahedra, point, solid, uniform};
-use crate::mesh::{CellKind, Mesh};
 
 /// A box of `cells[0] x cells[1] x cells[2]` bricks, each one hexahedron or six tetrahedra.
 ///

@@ -4,10 +4,11 @@ use nalgebra::Vector3;
 
 use super::o_grid::OGrid;
 use super::{Pole, RectangleMesh, check_kind, name_side, require_cells, require_indices};
-use crate::error::MeshError;
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals};
-use crate::mesh::{CellKind, Mesh};
 
 /// A disc of quadrilaterals around a square core, or each cut into two triangles.
 ///

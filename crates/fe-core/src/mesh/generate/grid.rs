@@ -7,8 +7,10 @@ use super::{
     check_kind, name_side, of_degree, require, require_indices, require_positive, single_block,
     triangles,
 };
-use crate::error::MeshError;
-use crate::mesh::{CellKind, Mesh, Symmetry};
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
+use crate::symmetry::Symmetry;
 
 /// A rectilinear mesh in the plane (two axes) or in space (three): each cell of the grid is a quadrilateral or two
 /// triangles, a hexahedron or six tetrahedra.
@@ -67,11 +69,11 @@ impl GridMesh {
         let points = points(&lines);
         let count = lines.map(|lines| lines.len());
         let kind = self.kind.linear();
-        let cells = match kind {
-            CellKind::Quad4 => quads(count),
-            CellKind::Tri3 => triangles(&points, &quads(count)),
-            CellKind::Tet4 => tetrahedra(&bricks(count)),
-            _ => bricks(count),
+        let cells = match self.kind {
+            CellKind::Quad4 | CellKind::Quad9 => quads(count),
+            CellKind::Tri3 | CellKind::Tri6 => triangles(&points, &quads(count)),
+            CellKind::Tet4 | CellKind::Tet10 => tetrahedra(&bricks(count)),
+            CellKind::Hex8 | CellKind::Hex27 => bricks(count),
         };
         let symmetry = if dim == 2 {
             Symmetry::PlaneStrain

@@ -5,10 +5,11 @@ use nalgebra::Vector3;
 use super::disc::name_plane;
 use super::o_grid::OGrid;
 use super::{BoxMesh, Pole, check_shape_kind, require_cells, require_indices};
-use crate::error::MeshError;
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, hexahedra, point, solid};
-use crate::mesh::{CellKind, Mesh};
 
 /// The upper or lower half of a ball, of hexahedra around half a cube.
 ///

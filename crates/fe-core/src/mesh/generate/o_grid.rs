@@ -7,8 +7,9 @@ use nalgebra::Vector3;
 use super::{
     Pole, into_kind, name_side, require_finite, require_indices, require_positive, single_block,
 };
-use crate::error::MeshError;
-use crate::mesh::{CellKind, Facet, Mesh};
+use crate::element::{CellKind, Facet};
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 
 /// Distance of the core's corners from the centre, in radii.
 const CORE: f64 = 0.6;
@@ -105,8 +106,8 @@ impl OGrid {
             // A mirrored cell keeps its sense when it is walked the other way round.
             let kind = self.core.blocks[0].kind;
             for cell in cells.chunks_exact_mut(kind.node_count()) {
-                match kind {
-                    CellKind::Hex8 => cell.rotate_left(4),
+                match kind.dim() {
+                    3 => cell.rotate_left(4),
                     _ => cell.reverse(),
                 }
             }

@@ -3,10 +3,11 @@
 use super::axis::GridAxis;
 use super::grid::GridMesh;
 use super::{check_grid, check_kind};
-use crate::error::MeshError;
+use crate::element::CellKind;
+use crate::mesh::Mesh;
+use crate::mesh::MeshError;
 #[cfg(feature = "serde")]
 use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals, uniform};
-use crate::mesh::{CellKind, Mesh};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///

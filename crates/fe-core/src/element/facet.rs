@@ -1,7 +1,5 @@
 //! Pieces of boundary.
 
-use crate::element::{quad9, tri6};
-
 /// Shape of a facet. Its nodes are the corners in order, then the middles of the edges in order, then the centre.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FacetKind {
@@ -40,7 +38,7 @@ impl FacetKind {
     }
 
     /// The facet of degree 2 with the same corners.
-    pub(super) const fn quadratic(self) -> FacetKind {
+    pub(crate) const fn quadratic(self) -> FacetKind {
         match self {
             FacetKind::Edge2 | FacetKind::Edge3 => FacetKind::Edge3,
             FacetKind::Tri3 | FacetKind::Tri6 => FacetKind::Tri6,
@@ -49,12 +47,12 @@ impl FacetKind {
     }
 
     /// For each node beyond the corners, the corners in whose middle it lies; none for facets of degree 1.
-    pub(super) fn parents(self) -> &'static [&'static [usize]] {
+    pub(crate) fn parents(self) -> &'static [&'static [usize]] {
         match self {
             FacetKind::Edge2 | FacetKind::Tri3 | FacetKind::Quad4 => &[],
             FacetKind::Edge3 => &[&[0, 1]],
-            FacetKind::Tri6 => &tri6::PARENTS,
-            FacetKind::Quad9 => &quad9::PARENTS,
+            FacetKind::Tri6 => &TRIANGLE_PARENTS,
+            FacetKind::Quad9 => &QUADRILATERAL_PARENTS,
         }
     }
 
@@ -71,6 +69,14 @@ impl FacetKind {
     }
 }
 
+/// Corners between which the other nodes lie.
+pub(super) static TRIANGLE_PARENTS: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
+
+/// Corners between which the other nodes lie.
+pub(super) static QUADRILATERAL_PARENTS: [&[usize]; 5] =
+    [&[0, 1], &[1, 2], &[2, 3], &[3, 0], &[0, 1, 2, 3]];
+
+/// Pieces of a quadratic triangle and quadrilateral.
 static TRIANGLES: [&[usize]; 4] = [&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]];
 static QUADRILATERALS: [&[usize]; 4] = [&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2, 6], &[7, 8, 6, 3]];
 
@@ -132,7 +138,7 @@ impl Facet {
     }
 
     /// Nodes in increasing order: equal for the two cells that share the facet.
-    pub(super) fn key(&self) -> [u32; 9] {
+    pub(crate) fn key(&self) -> [u32; 9] {
         let mut key = self.nodes;
         key.sort_unstable();
         key
