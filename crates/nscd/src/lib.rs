@@ -7,6 +7,26 @@
 //! with the contact law at the position level (the papers) or at the velocity level (Moreau-Jean),
 //! or without inertia. Every step ends with an energy audit whose terms all have their own formula.
 
+//!
+//! # Modules
+//! A module uses those of the lines below it only:
+//! ```text
+//! march                                        from start to end, step control
+//! stepper                                      one step
+//! accept          contact                      new state and report; contact problem of an iteration
+//! monitor         operator        overlap      has it arrived; W; nodes inside the other body
+//! body            search                       matrix and factor; what touches what
+//! bonds           energy          law          adhesion; audit; error of the contact law
+//! contact_stiffness                            pressed contacts in an indefinite tangent
+//! iterate                                      what Newton's method improves
+//! local           tunnelling                   slip and gap; steps that are too long
+//! step_problem    unsupported                  what does not change in a step; bodies that nothing holds
+//! elements        memory          floating     forces and tangents; contact forces of the nodes; rigid motions
+//! model           scales          tally        what never changes, and its sizes; counters and times
+//! scheme          report          linear       weights; what is told; sparse Cholesky factor
+//! error  state  settings  ordering  blocked  extrapolation  swept  cost  flat
+//! ```
+
 mod accept;
 mod blocked;
 mod body;
@@ -42,6 +62,10 @@ mod swept;
 mod tally;
 mod tunnelling;
 mod unsupported;
+
+pub use contact_bipotential;
+pub use fe_core;
+pub use nalgebra;
 
 pub use error::{ContactPlace, NscdError, Side, StepFailure};
 pub use march::{Observer, Span, Totals, march};

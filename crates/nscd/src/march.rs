@@ -24,6 +24,19 @@ pub trait Observer {
     fn rejected(&mut self, _rejection: &Rejection) {}
 }
 
+/// Wants to know nothing.
+impl Observer for () {
+    fn accepted(
+        &mut self,
+        _: &Stepper<'_>,
+        _: &State,
+        _: &StepReport,
+        _: &Totals,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        Ok(())
+    }
+}
+
 /// Sums and extremes over the accepted steps.
 #[derive(Debug, Clone, Default)]
 pub struct Totals {
@@ -68,6 +81,26 @@ pub struct Span {
 /// Runs from `state` to the end of the span. A failed step is cut in half, with its reason kept,
 /// and grown again; below the smallest step the run stops. `state` is always the last accepted one
 /// and `totals` what led there, so that nothing computed is lost.
+///
+/// ```
+/// use nscd::fe_core::{BoxMesh, Solid, solid_block};
+/// use nscd::{Model, NoClock, Span, Stepper, Totals, march};
+/// use hyperelastic::{ElasticConstants, NeoHookean};
+///
+/// // A bar in free flight keeps its energy.
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 4.0], [1, 1, 4]).generate("bar")?;
+/// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
+/// let bar = solid_block(&mesh, 0, law, 1000.0)?;
+/// let model = Model::new(Solid::new(mesh, vec![bar])?);
+/// let mut stepper = Stepper::new(&model, Box::new(NoClock))?;
+/// let mut state = stepper.initial_state([1.0, 0.0, 0.0].repeat(20))?;
+/// let mut totals = Totals::default();
+/// let span = Span { end: 0.1, dt: 0.01 };
+/// march(&mut stepper, &mut state, span, &mut totals, &mut ())?;
+/// assert_eq!(stepper.counters().steps, 10);
+/// assert!((state.kinetic_energy / totals.initial_energy - 1.0).abs() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 /// [`NscdError::Stopped`] with the last reason, [`NscdError::Observer`].

@@ -10,11 +10,20 @@ use crate::settings::Settings;
 
 /// A dead load: a fixed nodal force vector times a function of time.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Load {
     /// Nodal forces at factor 1 \[N\], flat.
     pub forces: Vec<f64>,
     /// Factor over time [-].
     pub factor: Table,
+}
+
+impl Load {
+    /// The nodal forces \[N\], flat, times a factor over time.
+    #[must_use]
+    pub fn new(forces: Vec<f64>, factor: Table) -> Self {
+        Self { forces, factor }
+    }
 }
 
 /// Rayleigh damping `A = mass M + stiffness K_0`, with the stiffness of the undeformed bodies.
@@ -39,7 +48,24 @@ impl Rayleigh {
 }
 
 /// Bodies, supports, loads, interfaces and the scheme: everything that never changes in a run.
+///
+/// ```
+/// use fe_core::{BoxMesh, Dirichlet, Solid, solid_block};
+/// use hyperelastic::{ElasticConstants, NeoHookean};
+/// use nscd::{Model, Scheme};
+///
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [2, 2, 4]).generate("bar")?;
+/// let base = Dirichlet::clamped("base", mesh.node_set("z_min")?.to_vec());
+/// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
+/// let block = solid_block(&mesh, 0, law, 1000.0)?;
+/// let model = Model::new(Solid::new(mesh, vec![block])?)
+///     .with_support(base)
+///     .with_scheme(Scheme::quasi_static());
+/// assert_eq!(model.dof_count(), 3 * 45);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Model {
     /// Deformable bodies.
     pub solid: Solid,
@@ -60,6 +86,66 @@ pub struct Model {
 }
 
 impl Model {
+    /// Bodies with their consistent mass that nothing holds, loads or damps, under the default scheme and settings.
+    #[must_use]
+    pub fn new(solid: Solid) -> Self {
+        Self {
+            mass: solid.consistent_mass(),
+            solid,
+            damping: Rayleigh::default(),
+            supports: Vec::new(),
+            loads: Vec::new(),
+            interfaces: Vec::new(),
+            scheme: Scheme::default(),
+            settings: Settings::default(),
+        }
+    }
+
+    /// The same model with another mass, e.g. a lumped one.
+    #[must_use]
+    pub fn with_mass(self, mass: MassMatrix) -> Self {
+        Self { mass, ..self }
+    }
+
+    /// The same model with damping.
+    #[must_use]
+    pub fn with_damping(self, damping: Rayleigh) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// The same model with one support or driven boundary more.
+    #[must_use]
+    pub fn with_support(mut self, support: Dirichlet) -> Self {
+        self.supports.push(support);
+        self
+    }
+
+    /// The same model with one load more.
+    #[must_use]
+    pub fn with_load(mut self, load: Load) -> Self {
+        self.loads.push(load);
+        self
+    }
+
+    /// The same model with one contact interface more.
+    #[must_use]
+    pub fn with_interface(mut self, interface: Interface) -> Self {
+        self.interfaces.push(interface);
+        self
+    }
+
+    /// The same model with another time scheme.
+    #[must_use]
+    pub fn with_scheme(self, scheme: Scheme) -> Self {
+        Self { scheme, ..self }
+    }
+
+    /// The same model with other tolerances and limits.
+    #[must_use]
+    pub fn with_settings(self, settings: Settings) -> Self {
+        Self { settings, ..self }
+    }
+
     /// Number of unknowns before supports, `dim * nodes`.
     pub fn dof_count(&self) -> usize {
         self.solid.dof_count()

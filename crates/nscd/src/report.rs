@@ -121,11 +121,13 @@ pub struct EnergyTerms {
 
 impl EnergyTerms {
     /// All that the discretisation loses (positive) or gains (negative) \[J\].
+    #[must_use]
     pub fn integration_error(&self) -> f64 {
         self.bulk_error + self.scheme_error + self.gap_error + self.bond_error
     }
 
     /// What the balance leaves open \[J\]: zero but for the tolerance of Newton's iteration.
+    #[must_use]
     pub fn imbalance(&self) -> f64 {
         let stored = self.kinetic + self.strain + self.adhesive;
         let lost =
@@ -135,18 +137,46 @@ impl EnergyTerms {
 
     /// Adds the terms of another step.
     pub fn add(&mut self, other: &Self) {
-        self.kinetic += other.kinetic;
-        self.strain += other.strain;
-        self.adhesive += other.adhesive;
-        self.load_work += other.load_work;
-        self.friction += other.friction;
-        self.bond += other.bond;
-        self.damping += other.damping;
-        self.impact += other.impact;
-        self.bulk_error += other.bulk_error;
-        self.scheme_error += other.scheme_error;
-        self.gap_error += other.gap_error;
-        self.bond_error += other.bond_error;
+        let terms = self.terms_mut().into_iter().zip(other.named());
+        terms.for_each(|(sum, (_, term))| *sum += term);
+    }
+
+    /// All terms with their names, in the order of the balance: what is stored, the work that came in, what is lost, and the
+    /// errors of the integration.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, f64); 12] {
+        [
+            ("kinetic", self.kinetic),
+            ("strain", self.strain),
+            ("adhesive", self.adhesive),
+            ("load_work", self.load_work),
+            ("friction", self.friction),
+            ("bond", self.bond),
+            ("damping", self.damping),
+            ("impact", self.impact),
+            ("bulk_error", self.bulk_error),
+            ("scheme_error", self.scheme_error),
+            ("gap_error", self.gap_error),
+            ("bond_error", self.bond_error),
+        ]
+    }
+
+    /// In the order of [`Self::named`].
+    fn terms_mut(&mut self) -> [&mut f64; 12] {
+        [
+            &mut self.kinetic,
+            &mut self.strain,
+            &mut self.adhesive,
+            &mut self.load_work,
+            &mut self.friction,
+            &mut self.bond,
+            &mut self.damping,
+            &mut self.impact,
+            &mut self.bulk_error,
+            &mut self.scheme_error,
+            &mut self.gap_error,
+            &mut self.bond_error,
+        ]
     }
 }
 
@@ -217,4 +247,27 @@ pub struct Rejection {
     pub dt: f64,
     /// Why it was rejected.
     pub reason: StepFailure,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_and_sums_follow_the_same_order() {
+        let mut terms = EnergyTerms::default();
+        let places = terms.terms_mut().into_iter();
+        places.zip(1..).for_each(|(term, k)| *term = f64::from(k));
+        let mut twice = terms;
+        twice.add(&terms);
+        for (k, ((name, once), (_, both))) in
+            terms.named().into_iter().zip(twice.named()).enumerate()
+        {
+            assert_eq!(
+                (once, both),
+                (1.0 + k as f64, 2.0 + 2.0 * k as f64),
+                "{name}"
+            );
+        }
+    }
 }

@@ -47,7 +47,43 @@ pub(crate) struct Weights {
     pub(crate) mass: f64,
 }
 
+impl Default for Scheme {
+    /// The trapezoidal rule with contact at the position level.
+    fn default() -> Self {
+        Self::dynamic(0.5, 0.5)
+    }
+}
+
 impl Scheme {
+    /// Mass, velocities and contact at the position level; `theta` and `xi` are 0.5 for the trapezoidal rule, which loses no
+    /// energy in the bodies, up to 1 for backward Euler, which loses most.
+    #[must_use]
+    pub const fn dynamic(theta: f64, xi: f64) -> Self {
+        Self {
+            theta,
+            xi,
+            contact: ContactLevel::Position,
+            inertia: Inertia::Dynamic,
+        }
+    }
+
+    /// A path of equilibria, with contact at the position level.
+    #[must_use]
+    pub const fn quasi_static() -> Self {
+        Self {
+            theta: 1.0,
+            xi: 1.0,
+            contact: ContactLevel::Position,
+            inertia: Inertia::QuasiStatic,
+        }
+    }
+
+    /// The same scheme with the contact law at another level.
+    #[must_use]
+    pub const fn with_contact(self, contact: ContactLevel) -> Self {
+        Self { contact, ..self }
+    }
+
     /// Refuses parameters outside the range in which the scheme is stable.
     ///
     /// # Errors
@@ -114,12 +150,7 @@ mod tests {
 
     #[test]
     fn end_velocity_inverts_the_displacement_rule() {
-        let scheme = Scheme {
-            theta: 0.7,
-            xi: 0.6,
-            contact: ContactLevel::Position,
-            inertia: Inertia::Dynamic,
-        };
+        let scheme = Scheme::dynamic(0.7, 0.6);
         let (v0, v1, dt) = (0.3, -1.2, 0.01);
         let du = dt * ((1.0 - 0.7) * v0 + 0.7 * v1);
         assert!((scheme.end_velocity(v0, du, dt) - v1).abs() < 1e-12);
@@ -129,19 +160,9 @@ mod tests {
 
     #[test]
     fn unstable_parameters_are_refused() {
-        let scheme = Scheme {
-            theta: 0.4,
-            xi: 0.5,
-            contact: ContactLevel::Position,
-            inertia: Inertia::Dynamic,
-        };
+        let scheme = Scheme::dynamic(0.4, 0.5);
         assert!(scheme.validated().is_err());
-        let still = Scheme {
-            theta: 1.0,
-            xi: 1.0,
-            contact: ContactLevel::Velocity,
-            inertia: Inertia::QuasiStatic,
-        };
+        let still = Scheme::quasi_static().with_contact(ContactLevel::Velocity);
         assert!(matches!(
             still.validated(),
             Err(NscdError::VelocityWithoutInertia)

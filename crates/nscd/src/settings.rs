@@ -2,6 +2,7 @@
 
 /// Tolerances and limits of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Largest residual force relative to the largest force in play (default 1e-12). Round-off of
     /// the residual itself is always accepted. Larger values save the last iteration of a step and
@@ -34,5 +35,67 @@ impl Default for Settings {
             growth_after: 2,
             lag: 1.0,
         }
+    }
+}
+
+impl Settings {
+    /// The same settings with another [`newton_tolerance`](Self::newton_tolerance).
+    #[must_use]
+    pub const fn with_newton_tolerance(self, newton_tolerance: f64) -> Self {
+        Self {
+            newton_tolerance,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`newton_iterations`](Self::newton_iterations).
+    #[must_use]
+    pub const fn with_newton_iterations(self, newton_iterations: usize) -> Self {
+        Self {
+            newton_iterations,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`contact_tolerance`](Self::contact_tolerance).
+    #[must_use]
+    pub const fn with_contact_tolerance(self, contact_tolerance: f64) -> Self {
+        Self {
+            contact_tolerance,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`contact_iterations`](Self::contact_iterations).
+    #[must_use]
+    pub const fn with_contact_iterations(self, contact_iterations: usize) -> Self {
+        Self {
+            contact_iterations,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`smallest_step`](Self::smallest_step).
+    #[must_use]
+    pub const fn with_smallest_step(self, smallest_step: f64) -> Self {
+        Self {
+            smallest_step,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`growth_after`](Self::growth_after).
+    #[must_use]
+    pub const fn with_growth_after(self, growth_after: usize) -> Self {
+        Self {
+            growth_after,
+            ..self
+        }
+    }
+
+    /// The same settings with another [`lag`](Self::lag).
+    #[must_use]
+    pub const fn with_lag(self, lag: f64) -> Self {
+        Self { lag, ..self }
     }
 }

@@ -38,8 +38,26 @@ const SHORTEST: f64 = 0.1;
 /// in both stays one.
 const CORRECTIONS: usize = 5;
 
-/// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step
-/// leaves the state as it was.
+/// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step leaves the state as it was.
+///
+/// ```
+/// use nscd::fe_core::{BoxMesh, Dirichlet, Solid, solid_block};
+/// use nscd::{Model, NoClock, Scheme, Stepper};
+/// use hyperelastic::{ElasticConstants, NeoHookean};
+///
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [1, 1, 2]).generate("bar")?;
+/// let base = Dirichlet::clamped("base", mesh.node_set("z_min")?.to_vec());
+/// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
+/// let bar = solid_block(&mesh, 0, law, 1000.0)?;
+/// let model = Model::new(Solid::new(mesh, vec![bar])?)
+///     .with_support(base)
+///     .with_scheme(Scheme::dynamic(1.0, 1.0));
+/// let mut stepper = Stepper::new(&model, Box::new(NoClock))?;
+/// let now = stepper.initial_state([0.0, 0.0, 0.1].repeat(12))?;
+/// let (next, report) = stepper.step(&now, 1e-3)?;
+/// assert!(next.strain_energy > 0.0 && report.energy.imbalance().abs() < 1e-9 * now.kinetic_energy);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Stepper<'m> {
     model: &'m Model,
     scales: ModelScales,

@@ -50,16 +50,17 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
             velocity[dim * node..dim * (node + 1)].copy_from_slice(&start[..dim]);
         }
     }
-    let model = Model {
-        supports: supports(loaded, solid.mesh())?,
-        loads: loads(loaded, &solid, &mass)?,
-        interfaces: interfaces(loaded, solid.mesh())?,
-        damping: scene.damping,
-        scheme: scheme(scene),
-        settings: settings(scene),
-        mass,
-        solid,
-    };
+    let (supports, interfaces) = (
+        supports(loaded, solid.mesh())?,
+        interfaces(loaded, solid.mesh())?,
+    );
+    let loads = loads(loaded, &solid, &mass)?;
+    let mut model = Model::new(solid)
+        .with_mass(mass)
+        .with_damping(scene.damping)
+        .with_scheme(scheme(scene))
+        .with_settings(settings(scene));
+    (model.supports, model.loads, model.interfaces) = (supports, loads, interfaces);
     let probes = probes(scene, model.solid.mesh(), &first_node);
     let span = Span {
         end: scene.time.end,
@@ -170,7 +171,7 @@ fn loads(
                 let forces = gravity
                     .nodal_forces(mass)
                     .map_err(|e| refuse(e.to_string()))?;
-                Ok(Load { forces, factor })
+                Ok(Load::new(forces, factor))
             }
             spec::Load::Traction {
                 facets,
@@ -188,7 +189,7 @@ fn loads(
                     factor: factor.clone(),
                 };
                 let forces = load.nodal_forces(mesh).map_err(|e| refuse(e.to_string()))?;
-                Ok(Load { forces, factor })
+                Ok(Load::new(forces, factor))
             }
         }
     };
@@ -349,19 +350,19 @@ fn scheme(scene: &Scene) -> Scheme {
 
 fn settings(scene: &Scene) -> Settings {
     let (given, default) = (&scene.solver, Settings::default());
-    Settings {
-        newton_tolerance: given.newton_tolerance.unwrap_or(default.newton_tolerance),
-        newton_iterations: given.max_newton.unwrap_or(default.newton_iterations),
-        contact_tolerance: given.contact_tolerance.unwrap_or(default.contact_tolerance),
-        contact_iterations: given
-            .max_contact_iterations
-            .unwrap_or(default.contact_iterations),
-        smallest_step: scene
-            .time
-            .min_dt
-            .map_or(default.smallest_step, |dt| dt / scene.time.dt),
-        ..default
-    }
+    let newton_tolerance = given.newton_tolerance.unwrap_or(default.newton_tolerance);
+    let newton_iterations = given.max_newton.unwrap_or(default.newton_iterations);
+    let contact_tolerance = given.contact_tolerance.unwrap_or(default.contact_tolerance);
+    let contact_iterations = given
+        .max_contact_iterations
+        .unwrap_or(default.contact_iterations);
+    let smallest_step = scene.time.min_dt.map(|dt| dt / scene.time.dt);
+    default
+        .with_newton_tolerance(newton_tolerance)
+        .with_newton_iterations(newton_iterations)
+        .with_contact_tolerance(contact_tolerance)
+        .with_contact_iterations(contact_iterations)
+        .with_smallest_step(smallest_step.unwrap_or(default.smallest_step))
 }
 
 fn probes(scene: &Scene, mesh: &Mesh, first_node: &[usize]) -> Vec<u32> {

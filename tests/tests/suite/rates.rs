@@ -10,10 +10,7 @@ use fe_core::{
 };
 use hyperelastic::{ElasticConstants, Material, NeoHookean, right_cauchy_green};
 use nalgebra::Matrix3;
-use nscd::{
-    ContactLevel, Inertia, Load, Model, NoClock, Rayleigh, Scheme, Settings, Span, Stepper, Totals,
-    march,
-};
+use nscd::{Load, Model, NoClock, Scheme, Settings, Span, Stepper, Totals, march};
 
 use crate::common::Silent;
 
@@ -232,27 +229,13 @@ impl Problem {
         let block = solid_block(&mesh, 0, law(), 1.0).unwrap();
         let solid = Solid::new(mesh, vec![block]).unwrap();
         let ramp = Table::new(vec![(0.0, 0.0), (1.0, 1.0)], Interpolation::Linear).unwrap();
-        let model = Model {
-            mass: solid.lumped_mass(),
-            solid,
-            damping: Rayleigh::default(),
-            supports,
-            loads: vec![Load {
-                forces,
-                factor: ramp,
-            }],
-            interfaces: Vec::new(),
-            scheme: Scheme {
-                theta: 1.0,
-                xi: 1.0,
-                contact: ContactLevel::Position,
-                inertia: Inertia::QuasiStatic,
-            },
-            settings: Settings {
-                newton_tolerance: 1e-9,
-                ..Settings::default()
-            },
-        };
+        let mass = solid.lumped_mass();
+        let mut model = Model::new(solid)
+            .with_mass(mass)
+            .with_load(Load::new(forces, ramp))
+            .with_scheme(Scheme::quasi_static())
+            .with_settings(Settings::default().with_newton_tolerance(1e-9));
+        model.supports = supports;
         let mut stepper = Stepper::new(&model, Box::new(NoClock)).unwrap();
         let mut state = stepper.initial_state(vec![0.0; model.dof_count()]).unwrap();
         let span = Span { end: 1.0, dt: 1.0 };

@@ -2,7 +2,7 @@ use fe_core::{BoxMesh, Solid, solid_block};
 use hyperelastic::{ElasticConstants, NeoHookean};
 use proptest::prelude::*;
 
-use crate::{Inertia, NoClock, Rayleigh, Scheme, Settings};
+use crate::{NoClock, Rayleigh, Scheme};
 
 use super::*;
 
@@ -14,22 +14,10 @@ fn model(theta: f64, xi: f64, damping: Rayleigh) -> Model {
     let block = solid_block(&mesh, 0, law, 1.5).unwrap();
     let held = mesh.node_sets["z_min"].clone();
     let solid = Solid::new(mesh, vec![block]).unwrap();
-    let scheme = Scheme {
-        theta,
-        xi,
-        contact: ContactLevel::Position,
-        inertia: Inertia::Dynamic,
-    };
-    Model {
-        mass: solid.consistent_mass(),
-        damping,
-        supports: vec![fe_core::Dirichlet::clamped("base", held)],
-        loads: Vec::new(),
-        interfaces: Vec::new(),
-        scheme,
-        settings: Settings::default(),
-        solid,
-    }
+    Model::new(solid)
+        .with_damping(damping)
+        .with_support(fe_core::Dirichlet::clamped("base", held))
+        .with_scheme(Scheme::dynamic(theta, xi))
 }
 
 /// Balance of a step at `u`.
