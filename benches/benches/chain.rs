@@ -14,8 +14,10 @@ use contact_bipotential::{Method, SingleContact, SolveSettings, solve};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fe_core::tangent_len;
 use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
-use hyperelastic::{BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, ThreeE};
-use nalgebra::{Matrix3, Vector3};
+use hyperelastic::{
+    BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, Symmetric, ThreeE,
+};
+use nalgebra::Vector3;
 use nscd::{NoClock, Stepper};
 
 fn mesh() -> (Mesh, Vec<f64>) {
@@ -62,19 +64,33 @@ fn kernel<M: Material>(c: &mut Criterion, name: &str, material: M) {
     });
 }
 
-fn kernels(c: &mut Criterion) {
-    kernel(
+/// Stress, and stress with tangent, of a law at one material point.
+fn material_point<M: Material>(c: &mut Criterion, name: &str, material: M) {
+    let stretch = Symmetric::new(1.3, 0.9, 1.1, 0.2, -0.1, 0.15);
+    let mut group = c.benchmark_group("law");
+    group.bench_function(BenchmarkId::new("stress", name), |b| {
+        b.iter(|| material.stress(black_box(&stretch)).unwrap());
+    });
+    group.bench_function(BenchmarkId::new("response", name), |b| {
+        b.iter(|| material.response(black_box(&stretch)).unwrap());
+    });
+}
+
+fn each_law<M: Material>(c: &mut Criterion, name: &str, material: M) {
+    material_point(c, name, material.clone());
+    kernel(c, name, material);
+}
+
+fn laws_and_kernels(c: &mut Criterion) {
+    let three_e = ThreeE::new(elastic(), [0.01, 0.01, 0.0, 0.1, 0.01]).unwrap();
+    each_law(
         c,
         "Saint Venant-Kirchhoff",
         SaintVenantKirchhoff::new(elastic()).unwrap(),
     );
-    kernel(
-        c,
-        "3e",
-        ThreeE::new(elastic(), [0.01, 0.01, 0.0, 0.1, 0.01]).unwrap(),
-    );
-    kernel(c, "Blatz-Ko", BlatzKo::new(1.0).unwrap());
-    kernel(c, "neo-Hookean", NeoHookean::new(elastic()).unwrap());
+    each_law(c, "3e", three_e);
+    each_law(c, "Blatz-Ko", BlatzKo::new(1.0).unwrap());
+    each_law(c, "neo-Hookean", NeoHookean::new(elastic()).unwrap());
 }
 
 fn assembly(c: &mut Criterion) {
@@ -154,5 +170,5 @@ fn step(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, kernels, assembly, single, contact, step);
+criterion_group!(benches, laws_and_kernels, assembly, single, contact, step);
 criterion_main!(benches);

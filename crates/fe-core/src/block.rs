@@ -1,7 +1,9 @@
 //! Blocks: elements of one kind with one material, seen through an object-safe trait.
 
 mod dilatation;
+mod entries;
 mod kernel;
+mod matrix;
 mod plane_kernel;
 mod projected_kernel;
 mod projection;

@@ -17,12 +17,22 @@ pub fn deformation_gradient<const N: usize>(
     u: &[[f64; N]; 3],
     gradients: &[[f64; N]; 3],
 ) -> Matrix3<f64> {
-    let mut f = Matrix3::identity();
+    let f = deformation_rows(u, gradients);
+    Matrix3::from_fn(|i, j| f[i][j])
+}
+
+/// The rows of [`deformation_gradient`].
+#[inline(always)]
+pub(crate) fn deformation_rows<const N: usize>(
+    u: &[[f64; N]; 3],
+    gradients: &[[f64; N]; 3],
+) -> [[f64; 3]; 3] {
+    let mut f = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     // Nine independent chains of scalar fused products are faster than lanes that have to be summed.
     for a in 0..N {
         for i in 0..3 {
             for j in 0..3 {
-                f[(i, j)] = u[i][a].mul_add(gradients[j][a], f[(i, j)]);
+                f[i][j] = u[i][a].mul_add(gradients[j][a], f[i][j]);
             }
         }
     }

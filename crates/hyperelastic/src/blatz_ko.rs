@@ -44,14 +44,17 @@ impl BlatzKo {
 
     #[inline]
     fn stress_of(&self, j: f64, inverse: &Symmetric, inverse_squared: &Symmetric) -> Symmetric {
-        (inverse * j - inverse_squared) * self.elastic.shear_modulus()
+        let ([inverse], [squared]) = (&inverse.data.0, &inverse_squared.data.0);
+        let shear = self.elastic.shear_modulus();
+        tensor::by_component(|i| shear * (j * inverse[i] - squared[i]))
     }
 
     #[inline]
     fn tangent_of(&self, j: f64, inverse: &Symmetric, inverse_squared: &Symmetric) -> Tangent {
         let shear = self.elastic.shear_modulus();
         // The three products (.) share a factor C^-1, and so are one.
-        let other = (inverse_squared * 2.0 - inverse * j) * shear;
+        let ([b], [squared]) = (&inverse.data.0, &inverse_squared.data.0);
+        let other = tensor::by_component(|i| shear * (2.0 * squared[i] - j * b[i]));
         let mut d = tensor::symmetric_product(inverse, &other);
         tensor::add_dyad(&mut d, shear * j, inverse);
         d

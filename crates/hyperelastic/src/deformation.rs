@@ -8,7 +8,11 @@ use crate::tensor::{self, Symmetric};
 #[must_use]
 #[inline(always)]
 pub fn right_cauchy_green(f: &Matrix3<f64>) -> Symmetric {
-    let entry = |(i, j)| f[(0, i)] * f[(0, j)] + f[(1, i)] * f[(1, j)] + f[(2, i)] * f[(2, j)];
+    let columns = &f.data.0;
+    let entry = |(i, j): (usize, usize)| {
+        let (a, b) = (&columns[i], &columns[j]);
+        a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    };
     Symmetric::from(tensor::COMPONENTS.map(entry))
 }
 

@@ -44,14 +44,17 @@ impl NeoHookean {
     fn stress_of(&self, ln_det_c: f64, inverse: &Symmetric) -> Symmetric {
         let shear = self.elastic.shear_modulus();
         let along_inverse = 0.5 * self.elastic.lame_modulus() * ln_det_c;
-        (tensor::IDENTITY - inverse) * shear + inverse * along_inverse
+        let ([unit], [inverse]) = (&tensor::IDENTITY.data.0, &inverse.data.0);
+        tensor::by_component(|i| shear * (unit[i] - inverse[i]) + along_inverse * inverse[i])
     }
 
     #[inline]
     fn tangent_of(&self, ln_det_c: f64, inverse: &Symmetric) -> Tangent {
         let lambda = self.elastic.lame_modulus();
         let along_inverse = self.elastic.shear_modulus() - 0.5 * lambda * ln_det_c;
-        let mut d = tensor::symmetric_product(inverse, &(inverse * along_inverse));
+        let [b] = &inverse.data.0;
+        let scaled = tensor::by_component(|i| along_inverse * b[i]);
+        let mut d = tensor::symmetric_product(inverse, &scaled);
         tensor::add_dyad(&mut d, lambda, inverse);
         d
     }

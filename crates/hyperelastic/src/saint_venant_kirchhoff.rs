@@ -47,8 +47,16 @@ impl Material for SaintVenantKirchhoff {
         require_finite(c)?;
         let e = tensor::green_lagrange(c);
         let pressure = self.elastic.lame_modulus() * tensor::trace(&e);
-        let mut stress = e * (2.0 * self.elastic.shear_modulus());
-        tensor::add_spherical(&mut stress, pressure);
+        let [s11, s22, s33, s12, s13, s23] =
+            e.data.0[0].map(|e| 2.0 * self.elastic.shear_modulus() * e);
+        let stress = Symmetric::new(
+            s11 + pressure,
+            s22 + pressure,
+            s33 + pressure,
+            s12,
+            s13,
+            s23,
+        );
         Ok((self.energy_of_strain(&e), stress))
     }
 

@@ -15,7 +15,8 @@ const SMALLEST_DET_C: f64 = 1e-24;
 /// [`Inverted`] if a component is NaN, infinite, or beyond any deformation (1e24).
 #[inline]
 pub fn require_finite<T: Real>(c: &Symmetric<T>) -> Result<(), Inverted> {
-    let within = c
+    let [components] = &c.data.0;
+    let within = components
         .iter()
         .fold(true, |within, x| within & (x.re().abs() <= LARGEST_C));
     if within {
@@ -93,7 +94,15 @@ impl<T: Real> StretchInvariants<T> {
     #[inline]
     pub fn inverse(&self) -> Symmetric<T> {
         let scale = self.det_c.recip();
-        self.cofactors.map(|x| x * scale)
+        let [[a, b, c, d, e, f]] = self.cofactors.data.0;
+        Symmetric::new(
+            a * scale,
+            b * scale,
+            c * scale,
+            d * scale,
+            e * scale,
+            f * scale,
+        )
     }
 }
 

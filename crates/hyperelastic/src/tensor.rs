@@ -107,12 +107,23 @@ pub fn engineering(e: &Symmetric) -> Symmetric {
     Symmetric::new(e[0], e[1], e[2], 2.0 * e[3], 2.0 * e[4], 2.0 * e[5])
 }
 
+/// A tensor given component by component. Loops over arrays become vector instructions everywhere; chains of `nalgebra`'s
+/// operators do not always.
+#[inline(always)]
+pub(crate) fn by_component(entry: impl Fn(usize) -> f64) -> Symmetric {
+    let mut a = [0.0; 6];
+    for i in 0..6 {
+        a[i] = entry(i);
+    }
+    Symmetric::from(a)
+}
+
 /// `A += s I`.
 #[inline]
 pub fn add_spherical(a: &mut Symmetric, s: f64) {
-    for i in 0..3 {
-        a[i] += s;
-    }
+    a[0] += s;
+    a[1] += s;
+    a[2] += s;
 }
 
 /// `A (.) B + B (.) A` with `(A (.) B)_ijkl = (A_ik B_jl + A_il B_jk)/2` \[Feng2007, eq. 23\], symmetric to the last bit.
@@ -167,9 +178,10 @@ pub fn derivative_of_square(b: &Symmetric) -> Tangent {
 /// `D += s A (x) A`, keeping `D` symmetric to the last bit.
 #[inline]
 pub fn add_dyad(d: &mut Tangent, s: f64, a: &Symmetric) {
-    for i in 0..6 {
-        for j in 0..6 {
-            d[(i, j)] += s * (a[i] * a[j]);
+    let (columns, [a]) = (&mut d.data.0, &a.data.0);
+    for j in 0..6 {
+        for i in 0..6 {
+            columns[j][i] += s * (a[i] * a[j]);
         }
     }
 }
@@ -178,15 +190,15 @@ pub fn add_dyad(d: &mut Tangent, s: f64, a: &Symmetric) {
 #[must_use]
 #[inline]
 pub fn isotropic(lambda: f64, shear: f64) -> Tangent {
-    let mut d = Tangent::zeros();
+    let mut d = [[0.0; 6]; 6];
     for i in 0..3 {
         for j in 0..3 {
-            d[(i, j)] = lambda;
+            d[i][j] = lambda;
         }
-        d[(i, i)] = lambda + 2.0 * shear;
-        d[(i + 3, i + 3)] = shear;
+        d[i][i] = lambda + 2.0 * shear;
+        d[i + 3][i + 3] = shear;
     }
-    d
+    Tangent::from(d)
 }
 
 #[cfg(test)]

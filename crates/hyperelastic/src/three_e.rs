@@ -105,7 +105,8 @@ impl ThreeE {
         let two_dw_dq = 2.0 * self.elastic.shear_modulus() + 0.5 * a3 * z * z + a5 * q;
         let cubic = SQRT_6 * a1;
         let on_diagonal = dw_dz / SQRT_3 - cubic * q / 3.0;
-        let mut s = e_d * two_dw_dq + tensor::square(e_d) * cubic;
+        let ([e_d], [square]) = (&e_d.data.0, &tensor::square(e_d).data.0);
+        let mut s = tensor::by_component(|i| two_dw_dq * e_d[i] + cubic * square[i]);
         tensor::add_spherical(&mut s, on_diagonal);
         s
     }
@@ -124,19 +125,22 @@ impl ThreeE {
         let cubic = SQRT_6 * a1;
         // I (x) (..) + (..) (x) I holds the coupling of a3 and the trace removed from d(E_d^2).
         let mixed = a3 * z / SQRT_3 - 2.0 / 3.0 * cubic;
-        let mixed = e_d * mixed;
-        let mut d = tensor::derivative_of_square(&(e_d * cubic));
+        let [deviator] = &e_d.data.0;
+        let mixed = deviator.map(|x| mixed * x);
+        let mut tangent =
+            tensor::derivative_of_square(&tensor::by_component(|i| cubic * deviator[i]));
+        let d = &mut tangent.data.0;
         for i in 0..3 {
             for j in 0..3 {
-                d[(i, j)] += (d2w_dz2 - two_dw_dq) / 3.0 + (mixed[i] + mixed[j]);
-                d[(i, j + 3)] += mixed[j + 3];
-                d[(j + 3, i)] += mixed[j + 3];
+                d[i][j] += (d2w_dz2 - two_dw_dq) / 3.0 + (mixed[i] + mixed[j]);
+                d[i][j + 3] += mixed[j + 3];
+                d[j + 3][i] += mixed[j + 3];
             }
-            d[(i, i)] += two_dw_dq;
-            d[(i + 3, i + 3)] += 0.5 * two_dw_dq;
+            d[i][i] += two_dw_dq;
+            d[i + 3][i + 3] += 0.5 * two_dw_dq;
         }
-        tensor::add_dyad(&mut d, 2.0 * a5, e_d);
-        d
+        tensor::add_dyad(&mut tangent, 2.0 * a5, e_d);
+        tangent
     }
 }
 

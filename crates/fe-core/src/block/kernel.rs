@@ -6,10 +6,10 @@
 //! zeros. Arrays have the node as the last index, which is the vector lane.
 
 use hyperelastic::tensor::INDEX;
-use hyperelastic::{Material, Symmetric, Tangent, right_cauchy_green};
-use nalgebra::Matrix3;
+use hyperelastic::{Material, Symmetric, Tangent};
 
-use crate::kinematics::deformation_gradient;
+use super::matrix::{Matrix, determinant, right_cauchy_green};
+use crate::kinematics::deformation_rows;
 
 /// Pairs of components `i <= k`.
 pub(super) const PAIRS: [(usize, usize); 6] = [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)];
@@ -39,9 +39,9 @@ pub(super) fn deform<const N: usize>(
     u: &[[f64; N]; 3],
     gradients: &Gradients<N>,
     point: usize,
-) -> Result<(Matrix3<f64>, f64), Inversion> {
-    let f = deformation_gradient(u, gradients);
-    let det_f = f.determinant();
+) -> Result<(Matrix, f64), Inversion> {
+    let f = deformation_rows(u, gradients);
+    let det_f = determinant(&f);
     // Written so that NaN fails.
     if det_f > 0.0 && det_f < f64::INFINITY {
         Ok((f, det_f))
@@ -52,45 +52,23 @@ pub(super) fn deform<const N: usize>(
 
 /// Adds `volume F S dN/dX` to the nodal forces.
 #[inline(always)]
-fn add_force<const N: usize>(
-    f: &Matrix3<f64>,
+pub(super) fn add_force<const N: usize>(
+    f: &Matrix,
     s: &Symmetric,
     volume: f64,
     gradients: &Gradients<N>,
     forces: &mut [[f64; N]; 3],
 ) {
-    let s = s * volume;
+    let s = s.data.0[0].map(|s| volume * s);
     for i in 0..3 {
         let p = [0, 1, 2].map(|j| {
-            f[(i, 0)] * s[INDEX[0][j]] + f[(i, 1)] * s[INDEX[1][j]] + f[(i, 2)] * s[INDEX[2][j]]
+            f[i][0] * s[INDEX[0][j]] + f[i][1] * s[INDEX[1][j]] + f[i][2] * s[INDEX[2][j]]
         });
         for a in 0..N {
             let sum = p[1].mul_add(gradients[1][a], forces[i][a]);
             forces[i][a] = p[0].mul_add(gradients[0][a], p[2].mul_add(gradients[2][a], sum));
         }
     }
-}
-
-/// Strain energy \[J\] and nodal forces \[N\], which are stored `[i][a]`.
-#[inline(always)]
-pub(super) fn internal_force<M: Material, const N: usize>(
-    material: &M,
-    u: &[[f64; N]; 3],
-    gradients: &[Gradients<N>],
-    volumes: &[f64],
-    forces: &mut [[f64; N]; 3],
-) -> Result<f64, Inversion> {
-    let mut energy = 0.0;
-    *forces = [[0.0; N]; 3];
-    for (point, (gradients, &volume)) in gradients.iter().zip(volumes).enumerate() {
-        let (f, det_f) = deform(u, gradients, point)?;
-        let Ok((w, s)) = material.stress(&right_cauchy_green(&f)) else {
-            return Err(Inversion { point, det_f });
-        };
-        energy += volume * w;
-        add_force(&f, &s, volume, gradients, forces);
-    }
-    Ok(energy)
 }
 
 /// Strain energy \[J\], nodal forces \[N\] and tangent \[N/m\], see [`super::tangent_index`].
@@ -131,13 +109,14 @@ pub(super) fn tangent<M: Material, const N: usize>(
 
 /// `volume A_iJkL` stored `[pair ik]\[J\][L]`.
 #[inline(always)]
-fn elasticity(f: &Matrix3<f64>, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f64; 3]; 3]; 6] {
+fn elasticity(f: &Matrix, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f64; 3]; 3]; 6] {
+    // Columns of the tangent, which are its rows to round-off.
+    let ([s], d) = (&s.data.0, &d.data.0);
     let mut half = [[[0.0; 6]; 3]; 3];
     for i in 0..3 {
-        let f = [0, 1, 2].map(|m| volume * f[(i, m)]);
+        let f = f[i].map(|f| volume * f);
         for j in 0..3 {
-            // Columns, which are rows to round-off.
-            let [d0, d1, d2] = [0, 1, 2].map(|m| d.column(INDEX[m][j]));
+            let [d0, d1, d2] = [0, 1, 2].map(|m| &d[INDEX[m][j]]);
             for v in 0..6 {
                 half[i][j][v] = f[2].mul_add(d2[v], f[1].mul_add(d1[v], f[0] * d0[v]));
             }
@@ -149,8 +128,8 @@ fn elasticity(f: &Matrix3<f64>, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f
             for l in 0..3 {
                 let geometric = if i == k { volume * s[INDEX[j][l]] } else { 0.0 };
                 let h = [0, 1, 2].map(|n| half[i][j][INDEX[n][l]]);
-                let sum = h[1].mul_add(f[(k, 1)], h[0].mul_add(f[(k, 0)], geometric));
-                a[j][l] = h[2].mul_add(f[(k, 2)], sum);
+                let sum = h[1].mul_add(f[k][1], h[0].mul_add(f[k][0], geometric));
+                a[j][l] = h[2].mul_add(f[k][2], sum);
             }
         }
     }

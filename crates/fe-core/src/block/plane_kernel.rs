@@ -6,10 +6,10 @@
 //! tangent are those of [`super::kernel`] without their zeros.
 
 use hyperelastic::tensor::INDEX;
-use hyperelastic::{Material, Symmetric, Tangent, right_cauchy_green};
-use nalgebra::Matrix3;
+use hyperelastic::{Material, Symmetric, Tangent};
 
 use super::kernel::{Gradients, Inversion};
+use super::matrix::{Matrix, right_cauchy_green};
 
 /// Entries `iJ` of `F` that can change: three belong to the first component, two to the second. The gradients that
 /// belong to an entry are the row `J`.
@@ -21,34 +21,39 @@ pub(super) fn deform<const N: usize>(
     u: &[[f64; N]; 3],
     gradients: &Gradients<N>,
     point: usize,
-) -> Result<(Matrix3<f64>, f64), Inversion> {
+) -> Result<(Matrix, f64), Inversion> {
     let mut h = [0.0; 5];
     for a in 0..N {
         for (h, (i, j)) in h.iter_mut().zip(ENTRIES) {
             *h = u[i % 2][a].mul_add(gradients[j][a], *h);
         }
     }
-    let (f11, f22, f33) = (1.0 + h[0], 1.0 + h[4], 1.0 + h[2]);
-    let f = Matrix3::new(f11, h[1], 0.0, h[3], f22, 0.0, 0.0, 0.0, f33);
-    let det_f = (f11 * f22 - h[1] * h[3]) * f33;
+    let f = [
+        [1.0 + h[0], h[1], 0.0],
+        [h[3], 1.0 + h[4], 0.0],
+        [0.0, 0.0, 1.0 + h[2]],
+    ];
+    let area = f[0][0] * f[1][1] - f[0][1] * f[1][0];
+    let det_f = area * f[2][2];
     // Written so that NaN fails. Two negative factors are no deformation either.
-    if f33 > 0.0 && det_f > 0.0 && det_f < f64::INFINITY {
+    if f[2][2] > 0.0 && det_f > 0.0 && det_f < f64::INFINITY {
         Ok((f, det_f))
     } else {
-        let det_f = if f33 < 0.0 { -det_f.abs() } else { det_f };
+        let det_f = if f[2][2] < 0.0 { -det_f.abs() } else { det_f };
         Err(Inversion { point, det_f })
     }
 }
 
 /// Adds `volume F S dN/dX` to the nodal forces.
 #[inline(always)]
-fn add_force<const N: usize>(
-    f: &Matrix3<f64>,
+pub(super) fn add_force<const N: usize>(
+    f: &Matrix,
     s: &Symmetric,
     volume: f64,
     gradients: &Gradients<N>,
     forces: &mut [[f64; N]; 3],
 ) {
+    let [s] = &s.data.0;
     for (i, j) in ENTRIES {
         let p = volume * row_times(f, i, |m| s[INDEX[m][j]]);
         for a in 0..N {
@@ -59,34 +64,12 @@ fn add_force<const N: usize>(
 
 /// `F_iM x_M`, of which the entries that are always zero are left out.
 #[inline(always)]
-fn row_times(f: &Matrix3<f64>, i: usize, x: impl Fn(usize) -> f64) -> f64 {
+fn row_times(f: &Matrix, i: usize, x: impl Fn(usize) -> f64) -> f64 {
     if i == 2 {
-        f[(2, 2)] * x(2)
+        f[2][2] * x(2)
     } else {
-        f[(i, 1)].mul_add(x(1), f[(i, 0)] * x(0))
+        f[i][1].mul_add(x(1), f[i][0] * x(0))
     }
-}
-
-/// Strain energy \[J\] and nodal forces \[N\], which are stored `[i][a]`; the third row stays zero.
-#[inline(always)]
-pub(super) fn internal_force<M: Material, const N: usize>(
-    material: &M,
-    u: &[[f64; N]; 3],
-    gradients: &[Gradients<N>],
-    volumes: &[f64],
-    forces: &mut [[f64; N]; 3],
-) -> Result<f64, Inversion> {
-    let mut energy = 0.0;
-    *forces = [[0.0; N]; 3];
-    for (point, (gradients, &volume)) in gradients.iter().zip(volumes).enumerate() {
-        let (f, det_f) = deform(u, gradients, point)?;
-        let Ok((w, s)) = material.stress(&right_cauchy_green(&f)) else {
-            return Err(Inversion { point, det_f });
-        };
-        energy += volume * w;
-        add_force(&f, &s, volume, gradients, forces);
-    }
-    Ok(energy)
 }
 
 /// Strain energy \[J\], nodal forces \[N\] and tangent \[N/m\], see [`super::tangent_index`].
@@ -120,13 +103,15 @@ pub(super) fn tangent<M: Material, const N: usize>(
 
 /// `volume A_iJkL` in the order of the entries.
 #[inline(always)]
-fn elasticity(f: &Matrix3<f64>, s: &Symmetric, d: &Tangent, volume: f64) -> [[f64; 5]; 5] {
+fn elasticity(f: &Matrix, s: &Symmetric, d: &Tangent, volume: f64) -> [[f64; 5]; 5] {
+    // Columns of the tangent, which are its rows to round-off.
+    let ([s], d) = (&s.data.0, &d.data.0);
     // Loops, because closures given to `map` are not inlined here.
     let mut a = [[0.0; 5]; 5];
     for (row, (i, j)) in a.iter_mut().zip(ENTRIES) {
         let mut half = [0.0; 4];
         for v in 0..4 {
-            half[v] = volume * row_times(f, i, |m| d[(v, INDEX[m][j])]);
+            half[v] = volume * row_times(f, i, |m| d[INDEX[m][j]][v]);
         }
         for (entry, (k, l)) in row.iter_mut().zip(ENTRIES) {
             *entry = row_times(f, k, |n| half[INDEX[n][l]]);

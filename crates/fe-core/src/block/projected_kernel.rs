@@ -13,12 +13,13 @@
 //! The entries of `F` that can change are taken as a list: nine in space, five in the plane.
 
 use hyperelastic::tensor::INDEX;
-use hyperelastic::{Material, Symmetric, Tangent, right_cauchy_green};
-use nalgebra::Matrix3;
+use hyperelastic::{Material, Tangent};
 
+use super::entries::{Entries, Plane, Space};
 use super::kernel::{self, BATCH, Gradients, Inversion, PAIRS, Products};
+use super::matrix::{Matrix, right_cauchy_green};
 use super::plane_kernel;
-use super::projection::{Deformed, Entries, MODES, Plane, Points, Space, Workspace, add_stress};
+use super::projection::{Deformed, MODES, Points, Workspace, add_stress};
 
 /// `sum_i amplitude_i x_i`.
 #[inline(always)]
@@ -36,8 +37,8 @@ fn add_multiples<const N: usize>(
 
 /// Entries of `F S`.
 #[inline(always)]
-fn first_stress<L: Entries<K>, const K: usize>(f: &Matrix3<f64>, s: &Symmetric) -> [f64; K] {
-    L::LIST.map(|(_, i, j)| (0..3).map(|m| f[(i, m)] * s[INDEX[m][j]]).sum())
+fn first_stress<L: Entries<K>, const K: usize>(f: &Matrix, s: &[f64; 6]) -> [f64; K] {
+    L::LIST.map(|(_, i, j)| (0..3).map(|m| f[i][m] * s[INDEX[m][j]]).sum())
 }
 
 /// Strain energy \[J\], amplitudes of the pressure, and nodal forces \[N\].
@@ -53,11 +54,11 @@ fn forces<L: Entries<K>, const K: usize, const N: usize>(
     for (point, (at, (w, s))) in work.points.iter().zip(&work.stresses).enumerate() {
         let (f_bar, volume) = (at.f_bar(), element.volumes[point]);
         energy += volume * w;
-        let mut p = first_stress::<L, K>(&f_bar, &(s * volume));
-        let trace = product(&p, &L::LIST.map(|(_, i, j)| f_bar[(i, j)]));
+        let mut p = first_stress::<L, K>(&f_bar, &s.data.0[0].map(|s| volume * s));
+        let trace = product(&p, &L::LIST.map(|(_, i, j)| f_bar[i][j]));
         let (scale, along) = (at.scale(), trace / (3.0 * at.det_f));
         for (p, (_, i, j)) in p.iter_mut().zip(L::LIST) {
-            *p = scale * *p - along * at.cofactor[(i, j)];
+            *p = scale * *p - along * at.cofactor[i][j];
         }
         add_stress::<L, K, N>(&p, &element.gradients[point], forces);
         for (pressure, b) in pressure.iter_mut().zip(element.modes_at(point)) {
@@ -200,7 +201,7 @@ fn hessians<L: Entries<K>, const K: usize, const N: usize>(
     for (point, at) in work.points.iter().enumerate() {
         let (modes, volume) = (element.modes_at(point), element.volumes[point]);
         let local: f64 = modes.iter().zip(pressure).map(|(b, p)| b * p).sum();
-        let s = work.stresses[point].1 * volume;
+        let s = work.stresses[point].1.data.0[0].map(|s| volume * s);
         let a = elasticity::<L, K>(&at.f_bar(), &s, &work.moduli[point], volume);
         let hessian = hessian::<L, K>(at, &s, &a, volume * local);
         add(point, &hessian.ff);
@@ -230,13 +231,13 @@ struct Hessian<const K: usize> {
 #[inline(never)]
 fn hessian<L: Entries<K>, const K: usize>(
     at: &Deformed,
-    s: &Symmetric,
+    s: &[f64; 6],
     a: &[[f64; K]; K],
     pressure: f64,
 ) -> Hessian<K> {
     let (scale, f_bar, theta) = (at.scale(), at.f_bar(), at.theta);
-    let g = at.cofactor / at.det_f;
-    let stretch = L::LIST.map(|(_, i, j)| f_bar[(i, j)]);
+    let g = at.cofactor.map(|row| row.map(|c| c / at.det_f));
+    let stretch = L::LIST.map(|(_, i, j)| f_bar[i][j]);
     let mut y = first_stress::<L, K>(&f_bar, s);
     let trace = product(&y, &stretch);
     for (y, a) in y.iter_mut().zip(a) {
@@ -251,14 +252,14 @@ fn hessian<L: Entries<K>, const K: usize>(
     for (row, (_, i, j)) in L::LIST.into_iter().enumerate() {
         for (column, (_, k, l)) in L::LIST.into_iter().enumerate() {
             ff[row][column] =
-                scale * scale * a[row][column] - y[row] * g[(k, l)] - g[(i, j)] * y[column]
-                    + dyadic * g[(i, j)] * g[(k, l)]
-                    + turning * g[(i, l)] * g[(k, j)];
+                scale * scale * a[row][column] - y[row] * g[k][l] - g[i][j] * y[column]
+                    + dyadic * g[i][j] * g[k][l]
+                    + turning * g[i][l] * g[k][j];
         }
     }
     let mut f_theta = y;
     for (h, (_, i, j)) in f_theta.iter_mut().zip(L::LIST) {
-        *h = (*h - bulk * g[(i, j)]) / theta;
+        *h = (*h - bulk * g[i][j]) / theta;
     }
     Hessian {
         ff,
@@ -275,24 +276,26 @@ fn product<const K: usize>(x: &[f64; K], y: &[f64; K]) -> f64 {
 /// `delta_ik s_JL + volume F_iM D_MJNL F_kN`.
 #[inline(never)]
 fn elasticity<L: Entries<K>, const K: usize>(
-    f: &Matrix3<f64>,
-    s: &Symmetric,
+    f: &Matrix,
+    s: &[f64; 6],
     d: &Tangent,
     volume: f64,
 ) -> [[f64; K]; K] {
+    // Columns of the tangent, which are its rows to round-off.
+    let d = &d.data.0;
     let mut a = [[0.0; K]; K];
     for (row, (_, i, j)) in a.iter_mut().zip(L::LIST) {
         let mut half = [0.0; 6];
         for m in 0..3 {
-            let f = volume * f[(i, m)];
+            let f = volume * f[i][m];
             for v in 0..6 {
-                half[v] = f.mul_add(d[(v, INDEX[m][j])], half[v]);
+                half[v] = f.mul_add(d[INDEX[m][j]][v], half[v]);
             }
         }
         for (entry, (_, k, l)) in row.iter_mut().zip(L::LIST) {
             *entry = if i == k { s[INDEX[j][l]] } else { 0.0 };
             for n in 0..3 {
-                *entry = half[INDEX[n][l]].mul_add(f[(k, n)], *entry);
+                *entry = half[INDEX[n][l]].mul_add(f[k][n], *entry);
             }
         }
     }

@@ -1,72 +1,13 @@
 //! Deformation of the quadrature points of an element with projected dilatation, see [`super::projected_kernel`].
 
 use hyperelastic::{Symmetric, Tangent};
-use nalgebra::Matrix3;
 
-use super::kernel::{self, Gradients, Inversion};
-use super::plane_kernel;
+use super::entries::Entries;
+use super::kernel::{Gradients, Inversion};
+use super::matrix::Matrix;
 
 /// Most functions of an element's projected dilatation: 1, X, Y, Z.
 pub(super) const MODES: usize = 4;
-
-/// Component of the displacement that an entry of `F` belongs to, its row and its column. The gradients that belong to
-/// an entry are the row of its column.
-pub(super) type Entry = (usize, usize, usize);
-
-/// Entries of `F` that can change.
-pub(super) trait Entries<const K: usize> {
-    const LIST: [Entry; K];
-
-    fn deform<const N: usize>(
-        u: &[[f64; N]; 3],
-        gradients: &Gradients<N>,
-        point: usize,
-    ) -> Result<(Matrix3<f64>, f64), Inversion>;
-}
-
-/// All nine.
-#[derive(Debug)]
-pub(super) struct Space;
-
-/// Those of [`plane_kernel`].
-#[derive(Debug)]
-pub(super) struct Plane;
-
-impl Entries<9> for Space {
-    const LIST: [Entry; 9] = [
-        (0, 0, 0),
-        (0, 0, 1),
-        (0, 0, 2),
-        (1, 1, 0),
-        (1, 1, 1),
-        (1, 1, 2),
-        (2, 2, 0),
-        (2, 2, 1),
-        (2, 2, 2),
-    ];
-
-    #[inline(always)]
-    fn deform<const N: usize>(
-        u: &[[f64; N]; 3],
-        gradients: &Gradients<N>,
-        point: usize,
-    ) -> Result<(Matrix3<f64>, f64), Inversion> {
-        kernel::deform(u, gradients, point)
-    }
-}
-
-impl Entries<5> for Plane {
-    const LIST: [Entry; 5] = [(0, 0, 0), (0, 0, 1), (0, 2, 2), (1, 1, 0), (1, 1, 1)];
-
-    #[inline(always)]
-    fn deform<const N: usize>(
-        u: &[[f64; N]; 3],
-        gradients: &Gradients<N>,
-        point: usize,
-    ) -> Result<(Matrix3<f64>, f64), Inversion> {
-        plane_kernel::deform(u, gradients, point)
-    }
-}
 
 /// What an element knows of its quadrature points.
 #[derive(Debug, Clone, Copy)]
@@ -88,8 +29,8 @@ impl<const N: usize> Points<'_, N> {
 /// Deformation of a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Deformed {
-    pub(super) f: Matrix3<f64>,
-    pub(super) cofactor: Matrix3<f64>,
+    pub(super) f: Matrix,
+    pub(super) cofactor: Matrix,
     pub(super) det_f: f64,
     /// Projected `det F`.
     pub(super) theta: f64,
@@ -107,8 +48,9 @@ impl Deformed {
         }
     }
 
-    pub(super) fn f_bar(&self) -> Matrix3<f64> {
-        self.f * self.scale()
+    pub(super) fn f_bar(&self) -> Matrix {
+        let scale = self.scale();
+        self.f.map(|row| row.map(|f| scale * f))
     }
 }
 
@@ -135,7 +77,7 @@ impl<const N: usize> Workspace<N> {
     }
 
     /// `Fbar` and its determinant at each point.
-    pub(super) fn deformations(&self) -> impl Iterator<Item = (Matrix3<f64>, f64)> {
+    pub(super) fn deformations(&self) -> impl Iterator<Item = (Matrix, f64)> {
         self.points.iter().map(|point| (point.f_bar(), point.theta))
     }
 
@@ -156,7 +98,7 @@ impl<const N: usize> Workspace<N> {
             let cofactor = cofactor(&f);
             for (i, b) in element.modes_at(point).iter().enumerate() {
                 amplitudes[i] += volume * b * det_f;
-                let rate = L::LIST.map(|(_, i, j)| volume * b * cofactor[(i, j)]);
+                let rate = L::LIST.map(|(_, i, j)| volume * b * cofactor[i][j]);
                 add_stress::<L, K, N>(&rate, gradients, &mut self.rates[i]);
             }
             self.points.push(Deformed {
@@ -179,13 +121,13 @@ impl<const N: usize> Workspace<N> {
 }
 
 #[inline(always)]
-fn cofactor(f: &Matrix3<f64>) -> Matrix3<f64> {
-    let mut cofactor = Matrix3::zeros();
+fn cofactor(f: &Matrix) -> Matrix {
+    let mut cofactor = [[0.0; 3]; 3];
     for i in 0..3 {
         for j in 0..3 {
             // Cyclic indices give the cofactor its sign.
             let (r, s, p, q) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-            cofactor[(i, j)] = f[(r, p)] * f[(s, q)] - f[(r, q)] * f[(s, p)];
+            cofactor[i][j] = f[r][p] * f[s][q] - f[r][q] * f[s][p];
         }
     }
     cofactor

@@ -5,8 +5,10 @@ use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 use super::dilatation::{Dilatation, modes};
+use super::entries::{self, Plane, Space};
 use super::kernel::{self, Inversion};
-use super::projection::{Plane, Points, Space, Workspace};
+use super::matrix::Matrix;
+use super::projection::{Points, Workspace};
 use super::{Block, ElementState, plane_kernel, projected_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
@@ -219,10 +221,10 @@ where
             let (f, work) = (&mut local, &mut work);
             let result = match (self.dilatation, Self::DIM) {
                 (Dilatation::Pointwise, 2) => {
-                    plane_kernel::internal_force(m, u, p.gradients, p.volumes, f)
+                    entries::internal_force::<Plane, M, 5, N>(m, u, p.gradients, p.volumes, f)
                 }
                 (Dilatation::Pointwise, _) => {
-                    kernel::internal_force(m, u, p.gradients, p.volumes, f)
+                    entries::internal_force::<Space, M, 9, N>(m, u, p.gradients, p.volumes, f)
                 }
                 (Dilatation::Projected, 2) => {
                     projected_kernel::internal_force::<Plane, M, 5, N>(m, u, p, work, f)
@@ -285,11 +287,7 @@ where
     }
 
     /// Deformation gradient that the law sees, and its determinant, at each point of an element.
-    fn deformations(
-        &self,
-        element: usize,
-        u: &[f64],
-    ) -> Result<Vec<(Matrix3<f64>, f64)>, Inversion> {
+    fn deformations(&self, element: usize, u: &[f64]) -> Result<Vec<(Matrix, f64)>, Inversion> {
         let (u, points) = (self.displacements(element, u), self.quadrature(element));
         if self.dilatation == Dilatation::Projected {
             let mut work = Workspace::new();
@@ -319,6 +317,7 @@ where
         let mut volume = 0.0;
         let deformations = self.deformations(element, u).map_err(fail)?;
         for (point, (f, det_f)) in deformations.into_iter().enumerate() {
+            let f = Matrix3::from_fn(|i, j| f[i][j]);
             let stress = self.material.stress(&right_cauchy_green(&f));
             let (_, s) = stress.map_err(|_| fail(Inversion { point, det_f }))?;
             let current = det_f * self.volumes[element * E::POINTS + point];
