@@ -17,7 +17,7 @@ use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
 use hyperelastic::{
     BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, Symmetric, ThreeE,
 };
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use nscd::{NoClock, Stepper};
 
 fn mesh() -> (Mesh, Vec<f64>) {
