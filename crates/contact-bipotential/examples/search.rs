@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     map.slip_offsets(&mut slip);
     println!(
         "  slip of the first node at rest (t1, t2, n): {:?} m\n",
-        &slip[..3]
+        &slip[Cone::Spatial.range(0)]
     );
 
     println!("Over the top of the lower block:");
@@ -68,7 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     map.apply(&up(&|n| slave.nodes.contains(&n)), &mut x);
     println!(
         "  H u of lifting the slaves by 1, first contact: {:?}",
-        &x[..3]
+        &x[Cone::Spatial.range(0)]
     );
     // H^T takes reactions to nodal forces, which balance.
     let mut force = vec![0.0; positions.len()];

@@ -2,10 +2,10 @@
 
 use std::borrow::Borrow;
 
-use faer::Mat;
 use rayon::prelude::*;
 
 use super::{Contact, ContactMap};
+use crate::delassus::DenseMatrix;
 use crate::geometry::error::GeometryError;
 
 /// The axes of a contact's frame, one a row. Plain arrays: the loops below vectorise.
@@ -18,7 +18,7 @@ const NO_UNKNOWN: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct CompliancePart {
     offset: Vec<u32>,
-    c: Mat<f64>,
+    c: DenseMatrix,
 }
 
 impl CompliancePart {
@@ -28,7 +28,7 @@ impl CompliancePart {
     ///
     /// # Errors
     /// [`GeometryError::Compliance`] if `c` is not square or an offset lies outside of it.
-    pub fn new(offset: Vec<u32>, c: Mat<f64>) -> Result<Self, GeometryError> {
+    pub fn new(offset: Vec<u32>, c: DenseMatrix) -> Result<Self, GeometryError> {
         let n = c.nrows();
         let largest = offset.iter().filter(|row| **row != NO_UNKNOWN).max();
         if c.ncols() != n || largest.is_some_and(|row| *row as usize >= n) {
@@ -42,12 +42,12 @@ impl CompliancePart {
     }
 
     /// The compliance \[m/N\].
-    pub fn compliance(&self) -> &Mat<f64> {
+    pub fn compliance(&self) -> &DenseMatrix {
         &self.c
     }
 
     /// Gives the two arrays back, to be filled again.
-    pub fn into_arrays(self) -> (Vec<u32>, Mat<f64>) {
+    pub fn into_arrays(self) -> (Vec<u32>, DenseMatrix) {
         (self.offset, self.c)
     }
 }
@@ -60,7 +60,7 @@ struct Entry {
 
 /// The stencils of all contacts, restricted to one body.
 struct BodyRows<'a> {
-    c: &'a Mat<f64>,
+    c: &'a DenseMatrix,
     /// Rows of `c` that some contact uses, sorted.
     used: Vec<usize>,
     entries: Vec<Entry>,
@@ -229,10 +229,10 @@ impl ContactMap {
     /// `C` is the sum of the bodies' compliances: two contacts couple through the bodies they share. Costs about
     /// `contacts^2 * stencil * 9` multiplications; only the lower triangle is computed. Columns are spread over
     /// threads and each is summed in a fixed order, so that the bits do not depend on their number.
-    pub fn delassus<P: Borrow<CompliancePart>>(&self, bodies: &[P], w: &mut Mat<f64>) {
+    pub fn delassus<P: Borrow<CompliancePart>>(&self, bodies: &[P], w: &mut DenseMatrix) {
         let n = self.row_count();
         if w.nrows() != n || w.ncols() != n {
-            *w = Mat::zeros(n, n);
+            *w = DenseMatrix::zeros(n, n);
         }
         let bodies: Vec<BodyRows> = bodies
             .iter()
@@ -250,7 +250,7 @@ impl ContactMap {
     fn lower_triangle<const D: usize, const P: usize>(
         &self,
         bodies: &[BodyRows],
-        w: &mut Mat<f64>,
+        w: &mut DenseMatrix,
     ) {
         let rows = |c: &Contact| self.axes(c).map(<[f64; 3]>::from);
         let frames: Vec<Rows> = self.contacts.iter().map(rows).collect();
@@ -274,7 +274,7 @@ impl ContactMap {
 }
 
 /// Copies the lower triangle to the upper one, tile by tile to stay in cache.
-fn mirror(w: &mut Mat<f64>) {
+fn mirror(w: &mut DenseMatrix) {
     const TILE: usize = 32;
     let n = w.nrows();
     let mut tile = [[0.0; TILE]; TILE];
