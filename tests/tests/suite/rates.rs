@@ -255,7 +255,6 @@ impl Problem {
             CellKind::Tet4 => Problem::errors::<Tet4, 4>,
             CellKind::Hex27 => Problem::errors::<Hex27, 27>,
             CellKind::Tet10 => Problem::errors::<Tet10, 10>,
-            _ => panic!("{kind:?}"),
         };
         let (coarse, fine) = (errors(self, n), errors(self, 2 * n));
         let slopes = [0, 1].map(|k| (coarse[k] / fine[k]).log2());
