@@ -2,8 +2,8 @@
 
 /// Estimated seconds of the parts of an iteration. Only their ratios matter: they decide when a new tangent pays.
 ///
-/// Seconds of a usual core (3 GHz, one thread), from the phases of `summary.json` over its counters: impact with 20 to 60 elements
-/// a side for the factor, press-twist for the contact. Right to a factor of two; `Settings::lag` scales them.
+/// Estimates for one thread of a usual core, to be compared with the phases of `summary.json` over its counters; no record of
+/// their measurement is kept. `Settings::lag` scales the cost of a tangent against them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CostModel {
     /// Multiplications and additions of a factorization or condensation in a second \[1/s\].
