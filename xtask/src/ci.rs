@@ -54,7 +54,11 @@ const STEPS: &[Step] = &[
         "test -p contact-bipotential --no-default-features --features conformance",
         52,
     ),
-    tests("elements, with their batteries", "test -p fe-core", 106),
+    tests(
+        "elements, with their batteries",
+        "test -p fe-core --features conformance",
+        106,
+    ),
     Step {
         environment: Some(("RUSTDOCFLAGS", "-D warnings")),
         ..step("documentation", "doc --workspace --no-deps --all-features")

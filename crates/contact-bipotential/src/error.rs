@@ -99,7 +99,7 @@ pub enum ContactError {
 pub struct ParameterError {
     /// Name and unit of the parameter.
     pub name: &'static str,
-    /// Its value.
+    /// Its value, in the unit that the name says \[N/m^3, J/m^2, ..\].
     pub value: f64,
     /// The bound.
     pub bound: &'static str,

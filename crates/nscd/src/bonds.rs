@@ -45,17 +45,6 @@ pub(crate) fn adhesive_energy(model: &Model, bonds: &[Vec<NodeBond>]) -> f64 {
     model.interfaces.iter().zip(bonds).map(of_interface).sum()
 }
 
-impl NodeBond {
-    /// The bond with its separation in other axes.
-    fn with(&self, separation: [f64; 2]) -> Bond {
-        Bond {
-            intensity: self.intensity,
-            gap: self.gap,
-            separation,
-        }
-    }
-}
-
 /// The bond of every contact of a map over the step; empty where no interface has adhesion.
 pub(crate) fn bond_steps(step: &StepProblem<'_>, map: &ContactMap, u: &[f64]) -> Vec<BondStep> {
     let model = step.model;

@@ -1,6 +1,6 @@
 //! What a time step starts from and ends with.
 
-use contact_bipotential::ContactKey;
+use contact_bipotential::{Bond, ContactKey};
 use nalgebra::{Matrix3, Vector3};
 
 /// State at the end of an accepted step. Flat vectors are `dim * node + component`.
@@ -107,6 +107,17 @@ pub struct NodeBond {
     pub separation: [f64; 2],
     /// Facet of the master to which those axes belong; `None` for an obstacle.
     pub facet: Option<u32>,
+}
+
+impl NodeBond {
+    /// The bond with its separation in other axes.
+    pub(crate) fn with(&self, separation: [f64; 2]) -> Bond {
+        Bond {
+            intensity: self.intensity,
+            gap: self.gap,
+            separation,
+        }
+    }
 }
 
 /// What a contact does.

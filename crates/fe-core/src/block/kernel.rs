@@ -42,6 +42,12 @@ pub(super) fn deform<const N: usize>(
 ) -> Result<(Matrix, f64), Inversion> {
     let f = deformation_rows(u, gradients);
     let det_f = determinant(&f);
+    checked(f, det_f, point)
+}
+
+/// A deformation gradient and its determinant, unless matter is inverted or the numbers are none.
+#[inline(always)]
+pub(super) fn checked(f: Matrix, det_f: f64, point: usize) -> Result<(Matrix, f64), Inversion> {
     // Written so that NaN fails.
     if det_f > 0.0 && det_f < f64::INFINITY {
         Ok((f, det_f))

@@ -8,7 +8,7 @@
 use hyperelastic::tensor::INDEX;
 use hyperelastic::{Material, Symmetric, Tangent};
 
-use super::kernel::{Gradients, Inversion};
+use super::kernel::{Gradients, Inversion, checked};
 use super::matrix::{Matrix, right_cauchy_green};
 
 /// Entries `iJ` of `F` that can change: three belong to the first component, two to the second. The gradients that
@@ -35,13 +35,9 @@ pub(super) fn deform<const N: usize>(
     ];
     let area = f[0][0] * f[1][1] - f[0][1] * f[1][0];
     let det_f = area * f[2][2];
-    // Written so that NaN fails. Two negative factors are no deformation either.
-    if f[2][2] > 0.0 && det_f > 0.0 && det_f < f64::INFINITY {
-        Ok((f, det_f))
-    } else {
-        let det_f = if f[2][2] < 0.0 { -det_f.abs() } else { det_f };
-        Err(Inversion { point, det_f })
-    }
+    // Two negative factors are no deformation either.
+    let det_f = if f[2][2] < 0.0 { -det_f.abs() } else { det_f };
+    checked(f, det_f, point)
 }
 
 /// Adds `volume F S dN/dX` to the nodal forces.
