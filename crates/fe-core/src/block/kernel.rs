@@ -65,11 +65,13 @@ pub(super) fn add_force<const N: usize>(
     gradients: &Gradients<N>,
     forces: &mut [[f64; N]; 3],
 ) {
-    let s = s.data.0[0].map(|s| volume * s);
+    let s = volume * s;
+    let [s] = &s.data.0;
     for i in 0..3 {
-        let p = [0, 1, 2].map(|j| {
-            f[i][0] * s[INDEX[0][j]] + f[i][1] * s[INDEX[1][j]] + f[i][2] * s[INDEX[2][j]]
-        });
+        let mut p = [0.0; 3];
+        for j in 0..3 {
+            p[j] = f[i][0] * s[INDEX[0][j]] + f[i][1] * s[INDEX[1][j]] + f[i][2] * s[INDEX[2][j]];
+        }
         for a in 0..N {
             let sum = p[1].mul_add(gradients[1][a], forces[i][a]);
             forces[i][a] = p[0].mul_add(gradients[0][a], p[2].mul_add(gradients[2][a], sum));
@@ -120,9 +122,9 @@ fn elasticity(f: &Matrix, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f64; 3]
     let ([s], d) = (&s.data.0, &d.data.0);
     let mut half = [[[0.0; 6]; 3]; 3];
     for i in 0..3 {
-        let f = f[i].map(|f| volume * f);
+        let f = [volume * f[i][0], volume * f[i][1], volume * f[i][2]];
         for j in 0..3 {
-            let [d0, d1, d2] = [0, 1, 2].map(|m| &d[INDEX[m][j]]);
+            let (d0, d1, d2) = (&d[INDEX[0][j]], &d[INDEX[1][j]], &d[INDEX[2][j]]);
             for v in 0..6 {
                 half[i][j][v] = f[2].mul_add(d2[v], f[1].mul_add(d1[v], f[0] * d0[v]));
             }
@@ -133,9 +135,10 @@ fn elasticity(f: &Matrix, s: &Symmetric, d: &Tangent, volume: f64) -> [[[f64; 3]
         for j in 0..3 {
             for l in 0..3 {
                 let geometric = if i == k { volume * s[INDEX[j][l]] } else { 0.0 };
-                let h = [0, 1, 2].map(|n| half[i][j][INDEX[n][l]]);
-                let sum = h[1].mul_add(f[k][1], h[0].mul_add(f[k][0], geometric));
-                a[j][l] = h[2].mul_add(f[k][2], sum);
+                let h = &half[i][j];
+                let sum = h[INDEX[0][l]].mul_add(f[k][0], geometric);
+                let sum = h[INDEX[1][l]].mul_add(f[k][1], sum);
+                a[j][l] = h[INDEX[2][l]].mul_add(f[k][2], sum);
             }
         }
     }

@@ -2,7 +2,6 @@
 //! they become `nalgebra`'s, which costs nothing: the layouts are the same.
 
 use hyperelastic::Symmetric;
-use hyperelastic::tensor::COMPONENTS;
 
 /// Rows.
 pub(super) type Matrix = [[f64; 3]; 3];
@@ -17,6 +16,14 @@ pub(super) fn determinant(m: &Matrix) -> f64 {
 /// `C = F^T F` \[-\], see [`hyperelastic::right_cauchy_green`].
 #[inline(always)]
 pub(super) fn right_cauchy_green(f: &Matrix) -> Symmetric {
-    let entry = |(i, j): (usize, usize)| f[0][i] * f[0][j] + f[1][i] * f[1][j] + f[2][i] * f[2][j];
-    Symmetric::from(COMPONENTS.map(entry))
+    let entry = |i: usize, j: usize| f[0][i] * f[0][j] + f[1][i] * f[1][j] + f[2][i] * f[2][j];
+    // Written out: `map` over an array of pairs is not inlined here.
+    Symmetric::new(
+        entry(0, 0),
+        entry(1, 1),
+        entry(2, 2),
+        entry(0, 1),
+        entry(0, 2),
+        entry(1, 2),
+    )
 }
