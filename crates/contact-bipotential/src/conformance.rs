@@ -14,7 +14,7 @@ use crate::solve::Outcome;
 /// A rough, curved indenter pressed into an elastic half-space and dragged along: a full-rank `W`, as finite elements make it.
 ///
 /// `side * side` contacts on a square of side 1, shear modulus 1, Poisson's ratio .3, compliances of Boussinesq and
-/// Cerruti, within a cell the mean over it. `depth` [-] is how far the indenter sinks at its centre, `drag` [-] how far
+/// Cerruti, within a cell the mean over it. `depth` \[-\] is how far the indenter sinks at its centre, `drag` \[-\] how far
 /// it moves.
 pub fn half_space(side: usize, mu: f64, depth: f64, drag: f64) -> ContactProblem {
     let n = side * side;

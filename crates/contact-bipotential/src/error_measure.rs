@@ -13,11 +13,11 @@ pub struct Errors {
     /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` [-]: the measure of Siconos. It mixes units.
     pub siconos: f64,
     /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance
-    /// `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` [-]. It does not depend on units, and reactions that
+    /// `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` \[-\]. It does not depend on units, and reactions that
     /// run away in a problem without solution do not make it small. Only where `F` is as small as the rounding of `W r`
     /// makes it anyway does `|r|` count in the denominator.
     pub scale_free: f64,
-    /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm [-].
+    /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm \[-\].
     pub gap: f64,
 }
 
@@ -29,7 +29,7 @@ impl Errors {
         gap: f64::MAX,
     };
 
-    /// The larger of the two errors that a solution is judged by [-].
+    /// The larger of the two errors that a solution is judged by \[-\].
     #[must_use]
     pub fn worst(&self) -> f64 {
         self.siconos.max(self.scale_free)

@@ -34,7 +34,7 @@ pub struct GlobalProblem {
     pub f: Vec<f64>,
     /// Velocity of the obstacles, `dim contacts`.
     pub w: Vec<f64>,
-    /// Friction coefficient of each contact [-].
+    /// Friction coefficient of each contact \[-\].
     pub mu: Vec<f64>,
     /// Entries a contact.
     pub cone: Cone,

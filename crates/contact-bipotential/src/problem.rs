@@ -15,7 +15,7 @@ pub struct ContactProblem {
     pub w: Delassus,
     /// What `u` would be without reactions.
     pub q: Vec<f64>,
-    /// Friction coefficient of each contact [-].
+    /// Friction coefficient of each contact \[-\].
     pub mu: Vec<f64>,
     /// Entries a contact.
     pub cone: Cone,

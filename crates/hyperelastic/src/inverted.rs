@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{}; cut the step, or refine the mesh where it happens", self.description())]
 pub struct Inverted {
-    /// `det C = J^2` of the state that was refused; NaN or infinite if `C` was [-].
+    /// `det C = J^2` of the state that was refused; NaN or infinite if `C` was \[-\].
     pub det_c: f64,
 }
 

@@ -51,10 +51,10 @@ pub(crate) struct BodySystem {
     contraction: Option<f64>,
     /// Stiffness of contacts in the factor in use; the matrix without it was not definite.
     contacts: Vec<ContactStiffness>,
-    /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m], without what was added to make it definite:
+    /// Diagonal of the matrix in use and of its stiffness part, one a dof \[N/m\], without what was added to make it definite:
     /// round-off does not grow with that.
     diagonals: Vec<[f64; 2]>,
-    /// Least that the stiffness part was in any matrix so far [N/m].
+    /// Least that the stiffness part was in any matrix so far \[N/m\].
     softest: Vec<f64>,
     epoch: u64,
     forward: Vec<f64>,
@@ -180,17 +180,17 @@ impl BodySystem {
         COSTS.substitution(self.factor.fill(), self.values.len())
     }
 
-    /// Least stiffness part of each diagonal entry so far [N/m], infinite before the first factorization.
+    /// Least stiffness part of each diagonal entry so far \[N/m\], infinite before the first factorization.
     pub(crate) fn softest(&self) -> &[f64] {
         &self.softest
     }
 
-    /// Diagonal of the matrix in use and of its stiffness part, one a dof [N/m].
+    /// Diagonal of the matrix in use and of its stiffness part, one a dof \[N/m\].
     pub(crate) fn diagonals(&self) -> &[[f64; 2]] {
         &self.diagonals
     }
 
-    /// Largest diagonal entry of the matrix in use [N/m].
+    /// Largest diagonal entry of the matrix in use \[N/m\].
     pub(crate) fn largest_diagonal(&self) -> f64 {
         self.diagonals
             .iter()

@@ -213,7 +213,7 @@ impl Factor {
     }
 
     /// The body condensed onto its equations `first..n`: see [`Condensed`], and its compliance
-    /// `C = L22^-T L22^-1 = (A^-1)_22` [m/N].
+    /// `C = L22^-T L22^-1 = (A^-1)_22` \[m/N\].
     pub(crate) fn condense(&self, first: usize) -> (Condensed, Mat<f64>) {
         let factor = self.trailing_block(first);
         let m = factor.nrows();

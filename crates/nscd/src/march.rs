@@ -48,9 +48,9 @@ pub struct Totals {
     pub energy: EnergyTerms,
     /// Deepest penetration at the end of a step, and of slave nodes without contact at the end of the run \[m\].
     pub max_penetration: f64,
-    /// Largest relative error of the contact law in an accepted step [-].
+    /// Largest relative error of the contact law in an accepted step \[-\].
     pub max_contact_error: f64,
-    /// Largest relative residual in an accepted step [-].
+    /// Largest relative residual in an accepted step \[-\].
     pub max_residual: f64,
     /// Slave nodes inside their masters at the end of the run.
     pub overlap: Option<Overlap>,

@@ -14,7 +14,7 @@ use crate::settings::Settings;
 pub struct Load {
     /// Nodal forces at factor 1 \[N\], flat.
     pub forces: Vec<f64>,
-    /// Factor over time [-].
+    /// Factor over time \[-\].
     pub factor: Table,
 }
 
@@ -34,7 +34,7 @@ impl Load {
     serde(default, deny_unknown_fields)
 )]
 pub struct Rayleigh {
-    /// Factor of the mass matrix [1/s].
+    /// Factor of the mass matrix \[1/s\].
     pub mass: f64,
     /// Factor of the initial stiffness \[s\].
     pub stiffness: f64,

@@ -185,7 +185,7 @@ impl EnergyTerms {
 pub struct Resultant {
     /// Force \[N\].
     pub force: [f64; 3],
-    /// Moment about the origin at the end positions [N m].
+    /// Moment about the origin at the end positions \[N m\].
     pub moment: [f64; 3],
 }
 
@@ -222,9 +222,9 @@ pub struct StepReport {
     pub dt: f64,
     /// Corrections made.
     pub newton_iterations: usize,
-    /// Residual force over the largest force in play, recomputed at the end state [-].
+    /// Residual force over the largest force in play, recomputed at the end state \[-\].
     pub residual: f64,
-    /// Error of the contact law relative to the largest contact force, recomputed at the end state [-].
+    /// Error of the contact law relative to the largest contact force, recomputed at the end state \[-\].
     pub contact_error: f64,
     /// Contacts with a force or a closed gap.
     pub contacts_closed: usize,

@@ -113,7 +113,7 @@ impl Scheme {
         }
     }
 
-    /// Ratio of a change of end velocity to a change of end displacement [1/s].
+    /// Ratio of a change of end velocity to a change of end displacement \[1/s\].
     pub(crate) fn velocity_rate(&self, dt: f64) -> f64 {
         match self.inertia {
             Inertia::Dynamic => 1.0 / (self.theta * dt),

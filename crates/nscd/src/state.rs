@@ -10,7 +10,7 @@ pub struct State {
     pub time: f64,
     /// Displacement \[m\].
     pub u: Vec<f64>,
-    /// Velocity [m/s].
+    /// Velocity \[m/s\].
     pub v: Vec<f64>,
     /// Internal force `F_int(u)` \[N\].
     pub internal_force: Vec<f64>,
@@ -58,7 +58,7 @@ pub struct ContactState {
     pub gap: f64,
     /// Slip of the step in the local frame (t1, t2) \[m\].
     pub slip: [f64; 2],
-    /// Normal velocity of slave against master at the end of the step [m/s]; positive when they part.
+    /// Normal velocity of slave against master at the end of the step \[m/s\]; positive when they part.
     pub normal_velocity: f64,
     /// Force on the slave in the local frame (t1, t2, n) \[N\].
     pub force: Vector3<f64>,
