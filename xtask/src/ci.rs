@@ -43,21 +43,21 @@ const STEPS: &[Step] = &[
         "lints",
         "clippy --workspace --all-targets --all-features -- -D warnings",
     ),
-    tests("the README's test command", "test --workspace", 480),
+    tests("the README's test command", "test --workspace", 540),
     tests(
         "laws alone, with their battery",
         "test -p hyperelastic --features conformance",
-        49,
+        52,
     ),
     tests(
         "contact solvers without a mesh, with their batteries",
         "test -p contact-bipotential --no-default-features --features conformance",
-        52,
+        58,
     ),
     tests(
         "elements, with their batteries",
         "test -p fe-core --features conformance",
-        106,
+        100,
     ),
     Step {
         environment: Some(("RUSTDOCFLAGS", "-D warnings")),

@@ -83,7 +83,7 @@ fn check_arrows(faults: &mut Vec<String>) -> Outcome {
         for (other, _) in ARROWS {
             let depends = dependencies
                 .lines()
-                .any(|l| l.trim_start().starts_with(&format!("{other}.")));
+                .any(|l| l.split(['.', ' ', '=']).next() == Some(*other));
             if depends && !allowed.contains(other) {
                 faults.push(format!(
                     "crates/{name}/Cargo.toml: {name} must not depend on {other}"

@@ -10,7 +10,7 @@ use crate::rcc::{BondPoint, BondStep};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Errors {
-    /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` [-]: the measure of Siconos. It mixes units.
+    /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` \[-\]: the measure of Siconos. It mixes units.
     pub siconos: f64,
     /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance
     /// `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` \[-\]. It does not depend on units, and reactions that

@@ -6,7 +6,6 @@
 //! The scheme is the first-order theta/xi rule of non-smooth contact dynamics [Feng2007, eq. 38-41]
 //! with the contact law at the position level (the papers) or at the velocity level (Moreau-Jean),
 //! or without inertia. Every step ends with an energy audit whose terms all have their own formula.
-
 //!
 //! # Modules
 //! A module uses those of the lines below it only:
@@ -24,7 +23,7 @@
 //! elements        memory          floating     forces and tangents; contact forces of the nodes; rigid motions
 //! model           scales          tally        what never changes, and its sizes; counters and times
 //! scheme          report          linear       weights; what is told; sparse Cholesky factor
-//! error  state  settings  ordering  blocked  extrapolation  swept  cost  flat
+//! error  state  settings  ordering  blocked  swept  cost  flat
 //! ```
 
 mod accept;
