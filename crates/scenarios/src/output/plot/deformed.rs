@@ -6,7 +6,6 @@ use nalgebra::Vector3;
 use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
-use super::patches::Patch;
 use super::scale::Scale;
 use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, picture, px};
 use crate::output::Frame;
@@ -26,11 +25,22 @@ const PARTS: f64 = 3.0;
 /// # Errors
 /// What the drawing library reports.
 pub fn deformed_svg(title: &str, frame: &Frame<'_>) -> Result<String, String> {
-    let plane = frame.cells.iter().all(|cells| cells.kind.dim() == 2);
-    let view = View::new(plane);
+    picture([WIDTH, HEIGHT], |root| draw(root, title, frame))
+}
+
+fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
+    root.draw(&Text::new(title.to_owned(), (ipx(28), ipx(16)), font(17)))?;
+    let time = format!("t = {}", short(frame.time));
+    root.draw(&Text::new(
+        format!("{time} s"),
+        (ipx(28), ipx(42)),
+        font(13),
+    ))?;
     let stress = nodal_stress(frame);
     let faces = boundary(frame);
     let points = deformed_points(frame);
+    let plane = frame.cells.iter().all(|cells| cells.kind.dim() == 2);
+    let view = View::new(plane);
     let on_surface = faces
         .iter()
         .flatten()
@@ -48,27 +58,14 @@ pub fn deformed_svg(title: &str, frame: &Frame<'_>) -> Result<String, String> {
         scale: &scale,
         parts,
     };
-    let patches: Vec<Patch> = visible
-        .iter()
-        .flat_map(|face| patches_of(face, &scenery))
-        .collect();
-    let scale = stress.is_some().then_some(&scale);
-    picture([WIDTH, HEIGHT], &patches, |root| {
-        draw_legend(root, title, frame.time, scale)?;
-        draw_axes(root, &view)
-    })
-}
-
-/// Title, time, and the bar of the colours if there are any.
-fn draw_legend(root: &Area<'_>, title: &str, time: f64, scale: Option<&Scale>) -> Drawn {
-    root.draw(&Text::new(title.to_owned(), (ipx(28), ipx(16)), font(17)))?;
-    let time = format!("t = {} s", short(time));
-    root.draw(&Text::new(time, (ipx(28), ipx(42)), font(13)))?;
-    if let Some(scale) = scale {
-        let title = scale.label("von Mises", "Pa");
-        draw_bar(root, scale, title, [WIDTH - BAR, 130], 400, WIDTH - 24)?;
+    for face in &visible {
+        draw_face(root, face, &scenery)?;
     }
-    Ok(())
+    if stress.is_some() {
+        let title = scale.label("von Mises", "Pa");
+        draw_bar(root, &scale, title, [WIDTH - BAR, 130], 400, WIDTH - 24)?;
+    }
+    draw_axes(root, &view)
 }
 
 fn short(value: f64) -> String {
@@ -282,8 +279,7 @@ struct Scenery<'a> {
     parts: usize,
 }
 
-/// The parts of a face; the last one carries the rim of all.
-fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
+fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Drawn {
     let Scenery {
         points,
         view,
@@ -307,7 +303,6 @@ fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
         (fit.pixel(place), value)
     };
     let step = 1.0 / parts as f64;
-    let mut patches = Vec::with_capacity(parts * parts);
     for i in 0..parts {
         for j in 0..parts {
             let (s, t) = (i as f64 * step, j as f64 * step);
@@ -323,12 +318,12 @@ fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
             } else {
                 RGBColor(170, 180, 195)
             };
-            patches.push(Patch {
-                outline: patch.iter().map(|(pixel, _)| *pixel).collect(),
-                fill: shaded(base, face.light),
-                overlap: FINE,
-                rim: None,
-            });
+            let color = shaded(base, face.light);
+            let mut outline: Vec<(i32, i32)> = patch.iter().map(|(pixel, _)| *pixel).collect();
+            root.draw(&Polygon::new(outline.clone(), color.filled()))?;
+            // The same colour along the rim closes the hairlines between neighbouring patches.
+            outline.push(outline[0]);
+            root.draw(&PathElement::new(outline, color.stroke_width(FINE)))?;
         }
     }
     let mut rim: Vec<(i32, i32)> = face
@@ -337,10 +332,11 @@ fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
         .map(|node| fit.pixel(view.project(points[*node])))
         .collect();
     rim.push(rim[0]);
-    if let Some(last) = patches.last_mut() {
-        last.rim = Some((rim, BLACK.mix(0.45).stroke_width(FINE / 2)));
-    }
-    patches
+    root.draw(&PathElement::new(
+        rim,
+        BLACK.mix(0.45).stroke_width(FINE / 2),
+    ))?;
+    Ok(())
 }
 
 fn shaded(color: RGBColor, light: f64) -> RGBColor {
