@@ -46,21 +46,6 @@ pub(crate) struct Run {
     pub(crate) end: Result<(), NscdError>,
 }
 
-/// Wants to know nothing.
-pub(crate) struct Silent;
-
-impl Observer for Silent {
-    fn accepted(
-        &mut self,
-        _: &Stepper<'_>,
-        _: &State,
-        _: &StepReport,
-        _: &Totals,
-    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        Ok(())
-    }
-}
-
 #[derive(Default)]
 struct Recorder {
     steps: Vec<Step>,
