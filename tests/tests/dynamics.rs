@@ -91,7 +91,8 @@ fn the_block_stops_for_good_and_friction_takes_its_energy() {
                 ("friction", 0.0051),
             ],
         );
-        // Not a reversal beyond round-off; the sole stands still to the last bit, the rest to the round-off of its stresses.
+        // Not a reversal beyond round-off; the sole stands still to the last bit, the rest to the round-off of its
+        // stresses.
         assert_eq!(found.error("sole at the end"), 0.0, "{level}");
         assert_errors(
             &found,

@@ -119,7 +119,8 @@ fn a_turning_body_is_of_second_order_and_of_first_with_backward_euler() {
         if theta < 1.0 {
             assert_order("velocity, theta 0.5", order, &steps, &velocities);
         } else {
-            // Backward Euler damps the fastest vibrations of the sudden start for as long as a step does not resolve them.
+            // Backward Euler damps the fastest vibrations of the sudden start for as long as a step does not resolve
+            // them.
             println!("velocity, theta 1: order {:.3}", slope(&steps, &velocities));
             assert!(velocities[2] < 0.4 * velocities[0], "{velocities:?}");
         }

@@ -1,19 +1,19 @@
-//! From a checked scene to a model: the place where concrete laws and shapes get their names.
+//! From a checked scene to a model.
 
 mod mesh;
 
-use contact_bipotential::{Adhesion, Interface, Master, Obstacle, Shape};
+use contact_bipotential::{Adhesion, Interface, Master, Obstacle};
 use fe_core::{
-    Block, DeadTraction, Dilatation, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid,
-    Surface, Table, solid_block_with,
+    Block, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface, Table,
 };
 use nalgebra::Vector3;
 use nscd::{Load, Model, Scheme, Settings, Span};
 
-use crate::spec::{self, BuiltLaw, LoadedScene, Scene, SceneError};
+use crate::spec::{self, LoadedScene, Scene, SceneError, Side};
 
 /// A scene ready to run.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Built {
     /// Everything that does not change.
     pub model: Model,
@@ -84,7 +84,7 @@ fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, Scen
             return Err(loaded.refuse(&path, "does not exist"));
         };
         let law = (material.law.build()).map_err(|e| loaded.refuse(&path, e.message))?;
-        let block = block(mesh, index, law, material.density, body.dilatation);
+        let block = law.block(mesh, index, material.density, body.dilatation);
         blocks.push(block.map_err(|error| match error {
             FeError::Unprojectable { .. } => {
                 loaded.refuse(&format!("bodies.{name}.dilatation"), error.to_string())
@@ -93,23 +93,6 @@ fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, Scen
         })?);
     }
     Ok(blocks)
-}
-
-fn block(
-    mesh: &Mesh,
-    index: usize,
-    law: BuiltLaw,
-    density: f64,
-    dilatation: Dilatation,
-) -> Result<Box<dyn Block>, FeError> {
-    match law {
-        BuiltLaw::SaintVenantKirchhoff(law) => {
-            solid_block_with(mesh, index, law, density, dilatation)
-        }
-        BuiltLaw::ThreeE(law) => solid_block_with(mesh, index, law, density, dilatation),
-        BuiltLaw::BlatzKo(law) => solid_block_with(mesh, index, law, density, dilatation),
-        BuiltLaw::NeoHookean(law) => solid_block_with(mesh, index, law, density, dilatation),
-    }
 }
 
 fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneError> {
@@ -136,11 +119,7 @@ fn table(table: &spec::Table) -> Result<Table, FeError> {
 }
 
 fn motion(given: &spec::Motion) -> Result<Motion, FeError> {
-    let spec::Motion::Move {
-        translation: [x, y, z],
-        rotation,
-    } = given
-    else {
+    let Some(([x, y, z], rotation)) = given.parts() else {
         return Ok(Motion::still());
     };
     let rotation = match rotation {
@@ -217,7 +196,7 @@ fn interface(mesh: &Mesh, name: &str, given: &spec::Interface) -> Result<Interfa
     let slave = surface(&given.slave)?;
     let area = slave.tributary_areas(mesh);
     let mut reach = facet_size(&slave, mesh);
-    let master = match side(&given.master) {
+    let master = match given.master.side() {
         Side::Deformable(set) => {
             let master = surface(set)?;
             reach = reach.max(facet_size(&master, mesh));
@@ -269,55 +248,6 @@ fn adhesion(given: &spec::Adhesion) -> Adhesion {
         update: given.update,
         bonded_friction: given.bonded_friction,
     }
-}
-
-/// What the master of an interface is.
-enum Side<'a> {
-    /// A facet set of a deformable body.
-    Deformable(&'a str),
-    /// A solid that does not deform.
-    Rigid(Shape),
-}
-
-fn side(master: &spec::Master) -> Side<'_> {
-    Side::Rigid(match *master {
-        spec::Master::Facets(ref set) => return Side::Deformable(set),
-        spec::Master::Plane { point, normal } => Shape::Plane {
-            point: point.into(),
-            normal: normal.into(),
-        },
-        spec::Master::Sphere { center, radius } => Shape::Sphere {
-            center: center.into(),
-            radius,
-        },
-        spec::Master::Cylinder {
-            point,
-            axis,
-            radius,
-        } => Shape::Cylinder {
-            point: point.into(),
-            axis: axis.into(),
-            radius,
-        },
-        spec::Master::Cone {
-            apex,
-            axis,
-            semi_apex_angle,
-        } => Shape::Cone {
-            apex: apex.into(),
-            axis: axis.into(),
-            semi_apex_angle: semi_apex_angle.to_radians(),
-        },
-        spec::Master::Punch {
-            center,
-            axis,
-            radius,
-        } => Shape::Punch {
-            center: center.into(),
-            axis: axis.into(),
-            radius,
-        },
-    })
 }
 
 /// How far a node may overhang the rim of a deformable master, as a part of a facet \[-\]. Bodies with flush sides

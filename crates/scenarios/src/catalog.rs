@@ -6,6 +6,7 @@ use crate::spec::{LoadedScene, Override, SceneError, near_names, parse};
 
 /// A built-in scene.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Entry {
     /// Name on the command line.
     pub name: &'static str,
@@ -162,11 +163,13 @@ pub fn load(name_or_file: &str, sets: &[Override]) -> Result<LoadedScene, SceneE
 }
 
 /// Folder for the results when none is given: `out/<scene>`.
+#[must_use]
 pub fn default_folder(name_or_file: &str) -> PathBuf {
     Path::new("out").join(stem(name_or_file))
 }
 
 /// Folder for the results of a sweep when none is given: `out/<scene>-sweep`.
+#[must_use]
 pub fn default_sweep_folder(name_or_file: &str) -> PathBuf {
     let mut name = stem(name_or_file).to_owned();
     name.push("-sweep");

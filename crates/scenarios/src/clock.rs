@@ -13,6 +13,7 @@ pub struct Stopwatch {
 
 impl Stopwatch {
     /// Starts now.
+    #[must_use]
     pub fn start() -> Self {
         Stopwatch {
             cpu: spent(),
@@ -22,11 +23,13 @@ impl Stopwatch {
 
     /// CPU time since the start \[s\]: of all threads of the process, or of the pool in which both calls are made. Runs
     /// that share the process have a pool each, so they do not count each other's time.
+    #[must_use]
     pub fn cpu_s(&self) -> f64 {
         spent().saturating_sub(self.cpu).as_secs_f64()
     }
 
     /// Wall time since the start \[s\].
+    #[must_use]
     pub fn wall_s(&self) -> f64 {
         self.wall.elapsed().as_secs_f64()
     }

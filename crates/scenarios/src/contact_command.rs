@@ -176,6 +176,8 @@ struct MeanClock {
 impl MeanClock {
     /// Ticks of the CPU clock that a measurement must cover.
     const TICKS: f64 = 20.0;
+    /// Bounds of what is long enough \[s\], whatever the clock claims about its ticks.
+    const ENOUGH: [f64; 2] = [1e-3, 0.5];
     /// Repetitions at most.
     const MOST: u32 = 2000;
 
@@ -192,8 +194,9 @@ impl MeanClock {
         while now == edge {
             now = start.cpu_s();
         }
+        let [least, most] = Self::ENOUGH;
         MeanClock {
-            enough: (Self::TICKS * (now - edge)).clamp(1e-3, 0.5),
+            enough: (Self::TICKS * (now - edge)).clamp(least, most),
         }
     }
 
@@ -230,10 +233,13 @@ const HEADS: [&str; 9] = [
     "norm_u",
 ];
 
+/// The columns of [`HEADS`] that are words: file, method, status.
+const WORDS: [usize; 3] = [0, 2, 6];
+
 fn table(rows: &[Row]) -> String {
     let mut lines = vec![HEADS.map(str::to_owned).to_vec()];
     lines.extend(rows.iter().map(|row| cells(row).to_vec()));
-    let mut text = report::columns(&lines, &[0, 2, 6]);
+    let mut text = report::columns(&lines, &WORDS);
     for row in rows {
         if let Some(reason) = &row.reason {
             let _ = writeln!(text, "{}: {}: {reason}", row.status, row.file);
@@ -249,7 +255,7 @@ fn table(rows: &[Row]) -> String {
     text
 }
 
-fn cells(row: &Row) -> [String; 9] {
+fn cells(row: &Row) -> [String; HEADS.len()] {
     let count = |n: Option<usize>| n.map_or_else(|| "-".to_owned(), |n| n.to_string());
     let small = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.1e}"));
     let name = Path::new(&row.file).file_name();

@@ -7,6 +7,7 @@ use crate::output::Bonds;
 
 /// Contacts of a slave node together; a node of several interfaces has the sum of their forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct NodeContact {
     /// Smallest gap \[m\]; NaN where no contact is near.
     pub gap: f64,
@@ -36,6 +37,7 @@ impl NodeContact {
     };
 
     /// All nodes of a state.
+    #[must_use]
     pub fn all(model: &Model, state: &State) -> Vec<NodeContact> {
         let mut nodes = vec![NodeContact::NONE; model.solid.node_count()];
         for contact in &state.contacts {
@@ -51,6 +53,7 @@ impl NodeContact {
     }
 
     /// One node of a state.
+    #[must_use]
     pub fn of(model: &Model, state: &State, node: u32) -> NodeContact {
         let mut found = NodeContact::NONE;
         let here = state.contacts.iter().filter(|c| c.node == node);

@@ -79,16 +79,19 @@ pub const ENERGY_TERMS: [EnergyTerm; 9] = [
 
 impl Energies {
     /// In the order of [`ENERGY_TERMS`] \[J\].
+    #[must_use]
     pub fn values(&self) -> [f64; ENERGY_TERMS.len()] {
         ENERGY_TERMS.map(|term| (term.value)(self))
     }
 
     /// Kinetic, strain and adhesive energy together \[J\].
+    #[must_use]
     pub fn stored(&self) -> f64 {
         self.kinetic + self.strain + self.adhesive
     }
 
     /// Dissipated, lost by impacts and by the time integration together \[J\].
+    #[must_use]
     pub fn lost(&self) -> f64 {
         self.friction_dissipation
             + self.bond_dissipation

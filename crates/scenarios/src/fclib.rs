@@ -4,7 +4,7 @@
 //! them back). What a file claims about its sizes is never believed further than its length allows.
 
 pub mod dat;
-pub mod hdf5;
+mod hdf5;
 pub mod write;
 
 use std::path::{Path, PathBuf};

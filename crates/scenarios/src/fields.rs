@@ -27,6 +27,7 @@ pub struct Fields {
 impl Fields {
     /// Fields of `state`. Contact status of a node: 0 none or open, 1 stick, 2 slip. The gap of a node without a
     /// contact near is NaN.
+    #[must_use]
     pub fn new(built: &Built, state: &State) -> Fields {
         let dim = built.model.solid.dim();
         let stress = stresses(built, state);
@@ -65,6 +66,7 @@ impl Fields {
     }
 
     /// The fields with the mesh, ready to be written.
+    #[must_use]
     pub fn frame<'a>(&'a self, built: &'a Built, state: &State) -> Frame<'a> {
         let mesh = built.model.solid.mesh();
         let array = |name, values| Array { name, values };

@@ -68,7 +68,7 @@ enum Command {
         #[arg(long = "set", value_name = "PATH=VALUE")]
         sets: Vec<Override>,
         /// Number of threads; all cores without it. The results do not depend on it.
-        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
         threads: Option<u16>,
         /// Also write the contact problem of the N-th step as FCLib, contact_step_N.hdf5, for `setae contact` and
         /// others.
@@ -90,6 +90,10 @@ enum Command {
 
 /// Unknowns up to which a check builds the whole model too, which takes a second.
 const LARGEST_BUILT: usize = 300_000;
+/// Threads that can be asked for; more are a slip.
+const MOST_THREADS: i64 = 1024;
+/// What a shell adds to the number of the signal that ended a program to make its exit code.
+const SIGNALLED: i32 = 128;
 /// The run stopped before its end.
 const STOPPED: u8 = 1;
 /// The input or the output folder is unusable.
@@ -253,15 +257,13 @@ fn run(
     let bar = progress_bar(quiet);
     let watch = &mut |progress: &Progress| advance(&bar, progress);
     let stop = interruption()?;
-    let options = Options {
-        dump,
-        stop: Some(&stop),
-    };
+    let mut options = Options::default().with_stop(&stop);
+    options.dump = dump;
     let outcome = scenarios::run_with(&loaded, &folder, &options, watch);
     bar.finish_and_clear();
     let summary = outcome.map_err(|error| match error {
         RunError::Scene(error) => Failure::Scene(error),
-        RunError::Output(error) => Failure::Other(error.to_string()),
+        error => Failure::Other(error.to_string()),
     })?;
     if !quiet {
         say(&format!(
@@ -286,7 +288,7 @@ fn run(
 fn interruption() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        register_conditional_shutdown(signal, 128 + signal, flag.clone())
+        register_conditional_shutdown(signal, SIGNALLED + signal, flag.clone())
             .and_then(|_| register(signal, flag.clone()))
             .map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))?;
     }

@@ -2,6 +2,7 @@
 
 /// State of a run after an accepted step, for whoever watches.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// Time reached \[s\].
     pub time: f64,

@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 
 use crate::energies::ENERGY_TERMS;
 use crate::output::{Status, Summary};
-use crate::spec::{Body, Dilatation, Inertia, Interface, Law, Master, Prescribed, Scene, Symmetry};
+use crate::spec::{Body, Dilatation, Inertia, Interface, Prescribed, Scene, Symmetry};
 
 /// A short description of a checked scene: bodies, unknowns, interfaces, steps.
+#[must_use]
 pub fn description(name: &str, scene: &Scene) -> String {
     let mut rows: Rows = scene.bodies.iter().map(|b| body_row(scene, b)).collect();
     rows.extend(scene.interfaces.iter().map(interface_row));
@@ -39,7 +40,7 @@ pub fn description(name: &str, scene: &Scene) -> String {
 fn body_row(scene: &Scene, (name, body): (&String, &Body)) -> (String, String) {
     let size = body.mesh.size(scene.refine);
     let material = scene.materials.get(&body.material);
-    let law = material.map_or("?", |material| law_name(&material.law));
+    let law = material.map_or("?", |material| material.law.name());
     let mut counts = format!(
         "{} elements, {} nodes, {law} `{}`",
         size.elements, size.nodes, body.material
@@ -51,14 +52,7 @@ fn body_row(scene: &Scene, (name, body): (&String, &Body)) -> (String, String) {
 }
 
 fn interface_row((name, interface): (&String, &Interface)) -> (String, String) {
-    let master = match &interface.master {
-        Master::Facets(facets) => format!("`{facets}`"),
-        Master::Plane { .. } => "rigid plane".into(),
-        Master::Sphere { .. } => "rigid sphere".into(),
-        Master::Cylinder { .. } => "rigid cylinder".into(),
-        Master::Cone { .. } => "rigid cone".into(),
-        Master::Punch { .. } => "rigid punch".into(),
-    };
+    let master = interface.master.form().words;
     let mut words = format!("`{}` on {master}, mu = {}", interface.slave, interface.mu);
     if let Some(bonds) = &interface.adhesion {
         let _ = write!(words, ", adhesion w = {} J/m^2", bonds.energy);
@@ -73,15 +67,6 @@ fn motion_row(scene: &Scene, (name, given): (&String, &Prescribed)) -> (String, 
     (format!("motion {name}"), words)
 }
 
-fn law_name(law: &Law) -> &'static str {
-    match law {
-        Law::SaintVenantKirchhoff { .. } => "SaintVenantKirchhoff",
-        Law::ThreeE { .. } => "ThreeE",
-        Law::BlatzKo { .. } => "BlatzKo",
-        Law::NeoHookean { .. } => "NeoHookean",
-    }
-}
-
 fn aligned(rows: &[(String, String)]) -> String {
     let width = rows
         .iter()
@@ -94,6 +79,7 @@ fn aligned(rows: &[(String, String)]) -> String {
 }
 
 /// Counters, phases and the energy audit as aligned columns.
+#[must_use]
 pub fn closing_table(summary: &Summary) -> String {
     let mut text = match summary.status {
         Status::Completed => format!(
@@ -197,6 +183,7 @@ fn energies(summary: &Summary) -> Rows {
 
 /// Lines of cells under each other, all of the same number of cells: numbers to the right, the columns in `words` to
 /// the left.
+#[must_use]
 pub fn columns(lines: &[Vec<String>], words: &[usize]) -> String {
     let count = lines.first().map_or(0, Vec::len);
     let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max();

@@ -10,6 +10,7 @@ use crate::output::{Force, Row};
 use crate::spec::{Quantity, Scene};
 
 /// The row of an accepted step.
+#[must_use]
 pub fn row(
     scene: &Scene,
     built: &Built,
@@ -36,6 +37,7 @@ pub fn row(
 }
 
 /// The row of the initial state, on which no forces act yet.
+#[must_use]
 pub fn first_row(scene: &Scene, built: &Built, state: &State) -> Row {
     let report = StepReport {
         interfaces: vec![Resultant::default(); built.model.interfaces.len()],

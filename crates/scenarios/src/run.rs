@@ -19,6 +19,7 @@ use crate::spec::{LoadedScene, SceneError};
 /// Why a run could not be made at all. A run that stops before its end is not an error but a [`Summary`] that says
 /// so.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum RunError {
     /// The scene describes something that cannot be built.
     #[error(transparent)]
@@ -42,12 +43,22 @@ pub fn run(
 
 /// What a run does besides what its scene says.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct Options<'a> {
     /// The contact problem of the last iteration of this accepted step, from 1, is written as FCLib. Where that step
     /// has none, a warning in the summary says so.
     pub dump: Option<usize>,
     /// When this turns true, the run stops after the step that it computes, with all its results.
     pub stop: Option<&'a AtomicBool>,
+}
+
+impl<'a> Options<'a> {
+    /// With [`Options::stop`].
+    #[must_use]
+    pub fn with_stop(mut self, stop: &'a AtomicBool) -> Self {
+        self.stop = Some(stop);
+        self
+    }
 }
 
 /// As [`run`], with [`Options`].
@@ -248,7 +259,11 @@ fn warnings(
     warnings
 }
 
+/// Rejected steps that a summary tells one by one.
+const MOST_REJECTIONS: usize = 100;
+
 /// What a run did and cost; `stopped` says why it did not reach its end.
+#[must_use]
 pub fn summarise(
     stepper: &Stepper<'_>,
     state: &State,
@@ -282,7 +297,12 @@ pub fn summarise(
             .collect(),
         indefinite_tangents: counters.indefinite_tangents as usize,
         max_residual: totals.max_residual,
-        rejections: totals.rejections.iter().take(100).map(rejection).collect(),
+        rejections: totals
+            .rejections
+            .iter()
+            .take(MOST_REJECTIONS)
+            .map(rejection)
+            .collect(),
         warnings: warnings(&energy, totals, stepper.model(), counters.lost_bonds),
         energy,
         max_penetration: totals.max_penetration,

@@ -23,14 +23,16 @@ mod paths;
 mod request;
 mod source;
 mod time;
+mod variants;
 
 pub use body::{Body, Symmetry};
 pub use error::SceneError;
 pub use interface::{Adhesion, Interface, Master, Stiffness};
+pub(crate) use interface::{FLAT, ShapeValue, Side, along_z};
 pub use layout::{Layout, ProbeColumns};
 pub use load::{LoadedScene, parse};
 pub use locate::{Node, NodeKind, ScanError, SpanTree};
-pub use material::{BuiltLaw, Law, LawError, Material};
+pub use material::{BlatzKoParameters, ElasticPair, Law, LawError, Material, ThreeEParameters};
 pub use mesh::{Mesh, MeshSize, PlaneGrid, SolidGrid};
 pub use motion::{Load, Motion, Prescribed, Rotation, Table};
 pub(crate) use near::near_names;
@@ -106,8 +108,13 @@ fn one() -> usize {
 /// seven times that of projected ones, at .48 up to sixteen times (docs/theory/elements.md, locking).
 const NOTABLE_POISSON_RATIO: f64 = 0.45;
 
+/// Part of a step, over the number of steps, that counts as none \[-\]: a quotient like 0.3 / 0.1 = 2.999.. or
+/// 3.000..1 must not add a step of round-off length.
+const WHOLE_STEP: f64 = 1e-9;
+
 impl Scene {
     /// A scene without bodies, all else left to its default, as in a file.
+    #[must_use]
     pub fn new(title: impl Into<String>, time: Time) -> Scene {
         Scene {
             title: title.into(),
@@ -135,6 +142,7 @@ impl Scene {
     }
 
     /// Counts of all bodies together, `refine` included.
+    #[must_use]
     pub fn size(&self) -> MeshSize {
         let sizes = self.bodies.values().map(|body| body.mesh.size(self.refine));
         sizes.fold(MeshSize::default(), |sum, size| MeshSize {
@@ -145,6 +153,7 @@ impl Scene {
     }
 
     /// What is allowed but hardly meant.
+    #[must_use]
     pub fn warnings(&self) -> Vec<String> {
         let one = |(name, body): (&String, &Body)| {
             let material = self.materials.get(&body.material)?;
@@ -161,9 +170,9 @@ impl Scene {
     }
 
     /// Number of equal steps of `time.dt` that reach `time.end` (a rejected step adds to it).
+    #[must_use]
     pub fn step_count(&self) -> usize {
-        // A quotient like 0.3 / 0.1 = 2.999.. or 3.000..1 must not add a step of round-off length.
         let exact = self.time.end / self.time.dt;
-        (exact - 1e-9 * exact.max(1.0)).ceil().max(1.0) as usize
+        (exact - WHOLE_STEP * exact.max(1.0)).ceil().max(1.0) as usize
     }
 }

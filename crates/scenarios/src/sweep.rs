@@ -17,6 +17,7 @@ pub use plan::{SweepError, Vary};
 
 /// All runs of a study, checked.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Sweep {
     /// The varied fields as they were asked for.
     pub names: Vec<String>,
@@ -28,6 +29,7 @@ pub struct Sweep {
 
 /// One run of a sweep.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Planned {
     /// Name of its folder, `<number>_<field>=<value>..`.
     pub folder: String,
@@ -39,6 +41,7 @@ pub struct Planned {
 
 /// How one run of a sweep ended.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Outcome {
     /// What it did and cost, or why it could not be made at all.
     pub summary: Result<Summary, String>,
@@ -55,6 +58,7 @@ impl Outcome {
     }
 
     /// `completed`, `stopped` or `failed`.
+    #[must_use]
     pub fn status(&self) -> &'static str {
         match &self.summary {
             Ok(summary) if summary.status == Status::Completed => "completed",
@@ -64,6 +68,7 @@ impl Outcome {
     }
 
     /// Why it is not completed.
+    #[must_use]
     pub fn reason(&self) -> Option<&str> {
         match &self.summary {
             Ok(summary) => summary.reason.as_deref(),

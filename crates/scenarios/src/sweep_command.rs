@@ -8,7 +8,7 @@ use scenarios::catalog;
 use scenarios::spec::Override;
 use scenarios::{Outcome, Sweep, SweepError, Vary};
 
-use crate::{Failure, STOPPED, interruption, say};
+use crate::{Failure, MOST_THREADS, STOPPED, interruption, say};
 
 /// What to vary.
 #[derive(clap::Args)]
@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads; all cores without it. The results do not depend on it.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS))]
     threads: Option<u16>,
     /// Print nothing but errors.
     #[arg(long)]

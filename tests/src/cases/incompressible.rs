@@ -1,7 +1,7 @@
 //! Indenters in nearly incompressible matter: does anything but `E/(1 - nu^2)` change, and is the pressure smooth?
 
 use fe_core::{CellBlock, ElementState};
-use scenarios::spec::Law;
+use scenarios::spec::{ElasticPair, Law};
 
 use super::indenters::cone_at;
 use crate::closed_form::{cone_force, punch_force};
@@ -77,7 +77,7 @@ fn ladders() -> Vec<Ladder> {
 
 fn measure(ran: &Ran, theory: impl Fn(f64) -> f64) -> Result<Vec<Found>, String> {
     let material = ran.scene.materials.get("block").ok_or("no block")?;
-    let Law::NeoHookean { nu: Some(nu), .. } = material.law else {
+    let Law::NeoHookean(ElasticPair { nu: Some(nu), .. }) = material.law else {
         return Err("the block is not neo-Hookean with nu".to_owned());
     };
     let force = ran.end("force.contact.y")?.abs();

@@ -162,9 +162,9 @@ fn cone_of(ran: &Ran) -> Result<Pressing, String> {
         return Err("not a cone that moves".to_owned());
     };
     let material = ran.scene.materials.get("block").ok_or("no block")?;
-    let (nu, cubic): (Option<f64>, Cubic) = match material.law {
-        Law::SaintVenantKirchhoff { nu, .. } => (nu, cubic_of_saint_venant_kirchhoff),
-        Law::NeoHookean { nu, .. } => (nu, cubic_of_neo_hookean),
+    let (nu, cubic): (Option<f64>, Cubic) = match &material.law {
+        Law::SaintVenantKirchhoff(elastic) => (elastic.nu, cubic_of_saint_venant_kirchhoff),
+        Law::NeoHookean(elastic) => (elastic.nu, cubic_of_neo_hookean),
         _ => (None, cubic_of_neo_hookean),
     };
     let nu = nu.ok_or("the block has no Poisson's ratio")?;

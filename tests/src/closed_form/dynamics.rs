@@ -82,7 +82,8 @@ mod tests {
 
     /// Characteristics on a lattice of half cells: what two bars do to each other, without a formula for it.
     fn lattice(cells: [usize; 2], z: [f64; 2], clamped: bool) -> (Vec<f64>, usize) {
-        // Right and left going parts of the particle velocity, stress force = z (left - right) in compression right - left.
+        // Right and left going parts of the particle velocity, stress force = z (left - right) in compression
+        // right - left.
         let (n, m) = (cells[0], cells[1]);
         let mut right = [vec![1.0; n], vec![0.0; m]];
         let mut left = [vec![0.0; n], vec![0.0; m]];

@@ -36,64 +36,61 @@ pub(super) fn runs() -> Vec<Planned> {
 }
 
 pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {
-    let first = runs.first().ok_or("no runs")?;
-    let energies = [
-        over_time(
-            "(10) Kinetic energy",
-            Axis::linear("Energy", "J"),
-            curve_each(runs, "t", "energy.kinetic")?,
-        ),
-        over_time(
-            "(11) Strain energy",
-            Axis::linear("Energy", "J"),
-            curve_each(runs, "t", "energy.strain")?,
-        ),
-        over_time(
-            "(12) Total energy",
-            Axis::linear("Energy", "J"),
-            totals(runs)?,
-        ),
-    ];
-    let points = [
-        over_time(
-            "(13) Von Mises stress at A",
-            Axis::linear("Stress", "Pa"),
-            curve_each(runs, "t", "probe.A.von_mises")?,
-        ),
-        over_time(
-            "(14) sigma_zz at C",
-            Axis::linear("Stress", "Pa"),
-            normal_stress(runs)?,
-        ),
-        trace(runs)?,
-    ];
-    let shapes = shapes(runs)?;
-    let start = first.deformed("Initial configuration", PICTURES[0])?;
     Ok(vec![
-        Figure {
-            number: "5",
-            title: "Initial configuration and mesh",
-            pictures: vec![("fig05.svg", start)],
-            caption: format!(
-                "After the first step of 0.01 s, in free flight: the colours are round-off. {} unknowns. The paper's mesh and its points A to D are lost with its figure: here A is the middle of \
-                 the lower side of the upper block, B the middle of its trailing lower edge (y = 0), C that of its leading one (y = 1), and the \
-                 plane BCD is x = 1.",
-                first.summary.dofs
-            ),
-        },
-        shapes,
+        start(runs)?,
+        shapes(runs)?,
         Figure {
             number: "10 to 12",
             title: "Energies",
-            pictures: vec![("fig10.svg", charts_svg(&energies, 2)?)],
+            pictures: vec![("fig10.svg", charts_svg(&energies(runs)?, 2)?)],
             caption: energy_caption(runs)?,
         },
         Figure {
             number: "13 to 15",
             title: "Stress at A and C, trace of B",
-            pictures: vec![("fig13.svg", charts_svg(&points, 2)?)],
+            pictures: vec![("fig13.svg", charts_svg(&points(runs)?, 2)?)],
             caption: point_caption(runs)?,
         },
+    ])
+}
+
+/// Figure 5.
+fn start(runs: &[Ran]) -> Result<Figure, String> {
+    let first = runs.first().ok_or("no runs")?;
+    let picture = first.deformed("Initial configuration", PICTURES[0])?;
+    Ok(Figure {
+        number: "5",
+        title: "Initial configuration and mesh",
+        pictures: vec![("fig05.svg", picture)],
+        caption: format!(
+            "After the first step of 0.01 s, in free flight: the colours are round-off. {} unknowns. The paper's mesh and its points A to D are lost with its figure: here A is the middle of \
+             the lower side of the upper block, B the middle of its trailing lower edge (y = 0), C that of its leading one (y = 1), and the \
+             plane BCD is x = 1.",
+            first.summary.dofs
+        ),
+    })
+}
+
+/// The charts of figures 10 to 12.
+fn energies(runs: &[Ran]) -> Result<[Chart; 3], String> {
+    let energy = || Axis::linear("Energy", "J");
+    let kinetic = curve_each(runs, "t", "energy.kinetic")?;
+    let strain = curve_each(runs, "t", "energy.strain")?;
+    Ok([
+        over_time("(10) Kinetic energy", energy(), kinetic),
+        over_time("(11) Strain energy", energy(), strain),
+        over_time("(12) Total energy", energy(), totals(runs)?),
+    ])
+}
+
+/// The charts of figures 13 to 15.
+fn points(runs: &[Ran]) -> Result<[Chart; 3], String> {
+    let stress = || Axis::linear("Stress", "Pa");
+    let at_a = curve_each(runs, "t", "probe.A.von_mises")?;
+    Ok([
+        over_time("(13) Von Mises stress at A", stress(), at_a),
+        over_time("(14) sigma_zz at C", stress(), normal_stress(runs)?),
+        trace(runs)?,
     ])
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use scenarios::output::{Axis, charts_svg};
+use scenarios::output::{Axis, Chart, Curve, charts_svg};
 
 use super::Figure;
 use super::measure::{digits, first_below_after_peak, milliseconds, peak};
@@ -45,14 +45,25 @@ pub(super) fn runs() -> Vec<Planned> {
 }
 
 pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {
-    let shown = runs.get(2).ok_or("no runs")?;
     let rough: Vec<&Ran> = runs.iter().take(FRICTION.len()).collect();
     let cases: Vec<&Ran> = runs
         .iter()
         .take(1)
         .chain(runs.iter().skip(FRICTION.len()))
         .collect();
-    let shapes = Figure {
+    let curves = Figure {
+        number: "10",
+        title: "Bonds between plate and half-cylinder",
+        pictures: vec![("fig10.svg", charts_svg(&charts(&rough, &cases)?, 2)?)],
+        caption: caption(&rough, &cases)?,
+    };
+    Ok(vec![shapes(runs)?, curves])
+}
+
+/// Figure 9.
+fn shapes(runs: &[Ran]) -> Result<Figure, String> {
+    let shown = runs.get(2).ok_or("no runs")?;
+    Ok(Figure {
         number: "9 b-c",
         title: "Von Mises stress of plate and half-cylinder",
         pictures: vec![
@@ -70,45 +81,42 @@ pub(super) fn figures(runs: &[Ran]) -> Result<Vec<Figure>, String> {
              Parts of the plate that are out of contact are drawn too; a plate of this length touches the cylinder throughout.",
             shown.plan.name
         ),
-    };
+    })
+}
+
+/// The charts of figure 10.
+fn charts(rough: &[&Ran], cases: &[&Ran]) -> Result<[Chart; 4], String> {
     let (beta, force) = (
         format!("probe.{NODE}.beta"),
         format!("probe.{NODE}.adhesion_tangential"),
     );
     let intensity = || Axis::linear("beta", "-");
     let traction = || Axis::linear("Tangential bond force", "N/m");
-    let named = |mut curves: Vec<scenarios::output::Curve>| {
+    let named = |mut curves: Vec<Curve>| {
         if let Some(first) = curves.first_mut() {
             first.name = "case 1".to_owned();
         }
         curves
     };
     let each = |runs: &[&Ran], y: &str| curve_each(runs.iter().copied(), "t", y);
-    let charts = [
-        over_time("(b) Intensity in case 1", intensity(), each(&rough, &beta)?),
+    Ok([
+        over_time("(b) Intensity in case 1", intensity(), each(rough, &beta)?),
         over_time(
             "(c) Intensity, mu = 0",
             intensity(),
-            named(each(&cases, &beta)?),
+            named(each(cases, &beta)?),
         ),
         over_time(
             "(d) Tangential bond force in case 1",
             traction(),
-            each(&rough, &force)?,
+            each(rough, &force)?,
         ),
         over_time(
             "(e) Tangential bond force, mu = 0",
             traction(),
-            named(each(&cases, &force)?),
+            named(each(cases, &force)?),
         ),
-    ];
-    let curves = Figure {
-        number: "10",
-        title: "Bonds between plate and half-cylinder",
-        pictures: vec![("fig10.svg", charts_svg(&charts, 2)?)],
-        caption: caption(&rough, &cases)?,
-    };
-    Ok(vec![shapes, curves])
+    ])
 }
 
 fn caption(rough: &[&Ran], cases: &[&Ran]) -> Result<String, String> {

@@ -52,17 +52,13 @@ pub(super) fn draw(seed: u64, index: usize) -> Draw {
     draw
 }
 
+/// A run without anything extreme.
 fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
     let case = dice.one_of(&Case::ALL);
     let kind = dice.one_of(&[Kind::Plane, Kind::Plane, Kind::Axisymmetric, Kind::Space]);
     let most = if kind == Kind::Space { 3 } else { 5 };
     let free = !case.is_held();
-    let scheme = dice.count(0, 4);
-    let (theta, xi) = match scheme {
-        0 | 1 => (0.5, 0.5),
-        2 => (1.0, 1.0),
-        _ => (dice.within(0.5, 1.0), dice.within(0.5, 1.0)),
-    };
+    let ([theta, xi], velocity_level) = scheme(dice);
     Draw {
         case,
         extremes: extremes.to_vec(),
@@ -75,12 +71,7 @@ fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
         width: dice.within(0.5, 1.5),
         height: dice.within(0.5, 1.0),
         grading: 1.0,
-        law: dice.one_of(&[
-            Law::SaintVenantKirchhoff,
-            Law::ThreeE,
-            Law::BlatzKo,
-            Law::NeoHookean,
-        ]),
+        law: dice.one_of(&Law::ALL),
         nu: dice.within(0.0, 0.4),
         modulus: 1.0,
         density: 1.0,
@@ -89,14 +80,10 @@ fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
         restitution: 0.0,
         theta,
         xi,
-        velocity_level: scheme == 1,
+        velocity_level,
         quasi_static: !free && dice.chance(0.4),
         lumped: dice.chance(0.3),
-        damping: if dice.chance(0.2) {
-            [dice.within(0.0, 0.2), dice.within(0.0, 0.2)]
-        } else {
-            [0.0; 2]
-        },
+        damping: damping(dice),
         dt: 0.2,
         steps: dice.count(12, 25),
         speed: [dice.within(-0.05, 0.05), dice.within(0.02, 0.1)],
@@ -106,12 +93,7 @@ fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
         turn: 0.0,
         flicker: false,
         pull: dice.chance(0.3),
-        shape: match dice.count(0, 3) {
-            0 => Shape::Plane(dice.within(0.0, 0.3)),
-            1 => Shape::Sphere(dice.within(0.5, 3.0)),
-            2 => Shape::Cylinder(dice.within(0.5, 3.0)),
-            _ => Shape::Plane(0.0),
-        },
+        shape: shape(dice),
         hold: if free { Hold::Free } else { Hold::Face },
         traction: 0.0,
         gravity: 0.0,
@@ -119,6 +101,35 @@ fn usual(dice: &mut Dice, extremes: &[Extreme]) -> Draw {
         overhang: false,
         // Centimetres, grams and wave times of a soft rubber.
         units: [1e-2, 1e-3, 3e-4],
+    }
+}
+
+/// Weights `theta` and `xi` of the time scheme, and whether the contact law acts on velocities.
+fn scheme(dice: &mut Dice) -> ([f64; 2], bool) {
+    let scheme = dice.count(0, 4);
+    let weights = match scheme {
+        0 | 1 => [0.5; 2],
+        2 => [1.0; 2],
+        _ => [dice.within(0.5, 1.0), dice.within(0.5, 1.0)],
+    };
+    (weights, scheme == 1)
+}
+
+/// Mass and stiffness damping.
+fn damping(dice: &mut Dice) -> [f64; 2] {
+    if dice.chance(0.2) {
+        [dice.within(0.0, 0.2), dice.within(0.0, 0.2)]
+    } else {
+        [0.0; 2]
+    }
+}
+
+fn shape(dice: &mut Dice) -> Shape {
+    match dice.count(0, 3) {
+        0 => Shape::Plane(dice.within(0.0, 0.3)),
+        1 => Shape::Sphere(dice.within(0.5, 3.0)),
+        2 => Shape::Cylinder(dice.within(0.5, 3.0)),
+        _ => Shape::Plane(0.0),
     }
 }
 
@@ -141,51 +152,21 @@ fn bond(dice: &mut Dice) -> Bond {
 fn push(draw: &mut Draw, extreme: Extreme, dice: &mut Dice) {
     match extreme {
         Extreme::Friction => draw.mu = dice.one_of(&[1.0, 1.9, 3.0, 10.0]),
-        Extreme::Stiffness => {
-            draw.modulus = dice.decades(-6.0, 6.0);
-            if dice.chance(0.7) {
-                draw.case = dice.one_of(&[Case::Pair, Case::Collide]);
-            }
-        }
+        Extreme::Stiffness => stiffness(draw, dice),
         Extreme::Density => draw.density = dice.decades(-6.0, 6.0),
         Extreme::LongSteps => {
             draw.dt *= dice.decades(1.0, 2.0);
             draw.steps = dice.count(2, 8);
         }
-        Extreme::ShortSteps => {
-            let factor = dice.decades(-8.0, -2.0);
-            draw.dt *= factor;
-            [draw.depth, draw.slide, draw.gap] =
-                [draw.depth, draw.slide, draw.gap].map(|x| x * factor);
-        }
-        Extreme::Speed => {
-            let factor = dice.decades(1.0, 2.0);
-            draw.speed = draw.speed.map(|v| v * factor);
-            if draw.case.is_held() {
-                draw.dt /= factor;
-            }
-        }
+        Extreme::ShortSteps => short_steps(draw, dice),
+        Extreme::Speed => speed(draw, dice),
         Extreme::Slivers => slivers(draw, dice),
         Extreme::Incompressible => {
             draw.nu = 0.5 - dice.decades(-4.0, -2.0);
             draw.law = dice.one_of(&[Law::SaintVenantKirchhoff, Law::ThreeE, Law::NeoHookean]);
         }
-        Extreme::StrongBonds => {
-            let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
-            bond.stiffness *= dice.decades(2.0, 4.0);
-            draw.bond = Some(bond);
-            draw.pull = true;
-        }
-        Extreme::NoViscosity => {
-            let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
-            bond.viscosity = 0.0;
-            bond.consistent = false;
-            if dice.chance(0.4) {
-                bond.bonded_friction = Some(dice.within(0.0, 2.0));
-            }
-            draw.bond = Some(bond);
-            draw.pull = true;
-        }
+        Extreme::StrongBonds => strong_bonds(draw, dice),
+        Extreme::NoViscosity => no_viscosity(draw, dice),
         Extreme::Compression => {
             draw.depth = draw.height * dice.within(0.5, 0.9);
             draw.speed[1] = dice.within(0.3, 1.0);
@@ -198,30 +179,10 @@ fn push(draw: &mut Draw, extreme: Extreme, dice: &mut Dice) {
             draw.round = false;
         }
         Extreme::Flicker => draw.flicker = true,
-        Extreme::Units => {
-            for unit in &mut draw.units {
-                if dice.chance(0.6) {
-                    *unit *= dice.one_of(&[1e-6, 1e-3, 1e3, 1e6]);
-                }
-            }
-        }
+        Extreme::Units => units(draw, dice),
         Extreme::AllDriven => draw.hold = Hold::All,
-        Extreme::DeadLoads => {
-            let load = dice.decades(-1.0, 1.0) * dice.one_of(&[-1.0, 1.0]);
-            if dice.chance(0.5) {
-                draw.traction = load;
-            } else {
-                draw.gravity = load;
-            }
-        }
-        Extreme::Sharp => {
-            draw.overhang = true;
-            draw.shape = if dice.chance(0.6) {
-                Shape::Cone(dice.within(5.0, 89.0))
-            } else {
-                Shape::Sphere(dice.decades(-2.0, -0.7))
-            };
-        }
+        Extreme::DeadLoads => dead_loads(draw, dice),
+        Extreme::Sharp => sharp(draw, dice),
         Extreme::Touching => {
             draw.gap = 0.0;
             draw.matching = true;
@@ -234,6 +195,72 @@ fn push(draw: &mut Draw, extreme: Extreme, dice: &mut Dice) {
         }
         Extreme::Turning => draw.turn = dice.within(0.5, 6.3),
     }
+}
+
+fn stiffness(draw: &mut Draw, dice: &mut Dice) {
+    draw.modulus = dice.decades(-6.0, 6.0);
+    if dice.chance(0.7) {
+        draw.case = dice.one_of(&[Case::Pair, Case::Collide]);
+    }
+}
+
+/// Ways shrink with the steps, or nothing would be reached.
+fn short_steps(draw: &mut Draw, dice: &mut Dice) {
+    let factor = dice.decades(-8.0, -2.0);
+    draw.dt *= factor;
+    [draw.depth, draw.slide, draw.gap] = [draw.depth, draw.slide, draw.gap].map(|x| x * factor);
+}
+
+fn speed(draw: &mut Draw, dice: &mut Dice) {
+    let factor = dice.decades(1.0, 2.0);
+    draw.speed = draw.speed.map(|v| v * factor);
+    if draw.case.is_held() {
+        draw.dt /= factor;
+    }
+}
+
+fn strong_bonds(draw: &mut Draw, dice: &mut Dice) {
+    let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
+    bond.stiffness *= dice.decades(2.0, 4.0);
+    draw.bond = Some(bond);
+    draw.pull = true;
+}
+
+fn no_viscosity(draw: &mut Draw, dice: &mut Dice) {
+    let mut bond = draw.bond.unwrap_or_else(|| bond(dice));
+    bond.viscosity = 0.0;
+    bond.consistent = false;
+    if dice.chance(0.4) {
+        bond.bonded_friction = Some(dice.within(0.0, 2.0));
+    }
+    draw.bond = Some(bond);
+    draw.pull = true;
+}
+
+fn units(draw: &mut Draw, dice: &mut Dice) {
+    for unit in &mut draw.units {
+        if dice.chance(0.6) {
+            *unit *= dice.one_of(&[1e-6, 1e-3, 1e3, 1e6]);
+        }
+    }
+}
+
+fn dead_loads(draw: &mut Draw, dice: &mut Dice) {
+    let load = dice.decades(-1.0, 1.0) * dice.one_of(&[-1.0, 1.0]);
+    if dice.chance(0.5) {
+        draw.traction = load;
+    } else {
+        draw.gravity = load;
+    }
+}
+
+fn sharp(draw: &mut Draw, dice: &mut Dice) {
+    draw.overhang = true;
+    draw.shape = if dice.chance(0.6) {
+        Shape::Cone(dice.within(5.0, 89.0))
+    } else {
+        Shape::Sphere(dice.decades(-2.0, -0.7))
+    };
 }
 
 fn slivers(draw: &mut Draw, dice: &mut Dice) {

@@ -116,6 +116,15 @@ pub(super) enum Law {
     NeoHookean,
 }
 
+impl Law {
+    pub(super) const ALL: [Law; 4] = [
+        Law::SaintVenantKirchhoff,
+        Law::ThreeE,
+        Law::BlatzKo,
+        Law::NeoHookean,
+    ];
+}
+
 /// A rigid shape whose highest point is the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Shape {

@@ -249,8 +249,11 @@ impl<'a> Words<'a> {
     }
 }
 
+/// Characters of a wrong word that an error repeats, as long as any number: a file may be one endless word.
+const LONGEST_SHOWN: usize = 24;
+
 fn shown(word: &str) -> String {
-    word.chars().take(24).collect()
+    word.chars().take(LONGEST_SHOWN).collect()
 }
 
 #[cfg(test)]

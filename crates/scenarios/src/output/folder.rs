@@ -131,6 +131,7 @@ impl Folder {
     }
 
     /// Path of a file in it.
+    #[must_use]
     pub fn file(&self, name: &str) -> PathBuf {
         self.path.join(name)
     }

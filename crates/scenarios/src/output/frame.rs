@@ -80,13 +80,16 @@ pub enum Values<'a> {
     Integer(&'a [i32]),
 }
 
+/// Components of a symmetric tensor \[-\].
+pub(super) const SYMMETRIC: usize = 6;
+
 impl Values<'_> {
     /// Numbers a tuple.
     pub fn components(&self) -> usize {
         match self {
             Values::Scalar(_) | Values::Integer(_) => 1,
             Values::Vector(_) => 3,
-            Values::SymmetricTensor(_) => 6,
+            Values::SymmetricTensor(_) => SYMMETRIC,
         }
     }
 
@@ -118,6 +121,7 @@ impl<'a> Frame<'a> {
     }
 
     /// A scalar field of the cells.
+    #[must_use]
     pub fn cell_scalar(&self, name: &str) -> Option<&'a [f64]> {
         self.cell_data
             .iter()
@@ -129,6 +133,7 @@ impl<'a> Frame<'a> {
     }
 
     /// What does not fit together, as a sentence: wrong lengths, nodes out of range.
+    #[must_use]
     pub fn defect(&self) -> Option<String> {
         for (data, tuples, what) in [
             (&self.point_data, self.points.len(), "points"),

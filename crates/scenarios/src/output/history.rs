@@ -51,6 +51,7 @@ pub struct Row {
 impl Row {
     /// Numbers in the order of the header of `layout`. A row with too few forces, bonds or probe values is filled with
     /// NaN, one with too many cut.
+    #[must_use]
     pub fn numbers(&self, layout: &Layout) -> Vec<f64> {
         let mut numbers = vec![self.time];
         numbers.extend(self.energies.values());
@@ -84,6 +85,7 @@ pub struct History {
 
 impl History {
     /// No rows yet.
+    #[must_use]
     pub fn new(header: Vec<String>) -> History {
         History {
             header,
@@ -134,6 +136,7 @@ impl History {
     }
 
     /// Values of a column over the rows.
+    #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
         let index = self.header.iter().position(|column| column == name)?;
         Some(

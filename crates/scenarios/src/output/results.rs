@@ -62,15 +62,20 @@ impl Schedule {
     fn advance(&mut self, step: usize, time: f64) {
         self.written = Some(step);
         if let FieldsEvery::Interval(dt) = self.every {
-            let periods = (time / dt * (1.0 + 1e-12) + 1e-9).floor();
+            let periods = (time / dt * (1.0 + QUOTIENT_ROUND_OFF) + SAME_TIME).floor();
             self.next = (periods + 1.0) * dt;
         }
     }
 }
 
-/// Sums of steps reach a time only to round-off.
+/// Sums of steps reach a time only to round-off: a time this close to another, over the interval or the time itself,
+/// is the same \[-\]; round-off of a million steps, with room.
+const SAME_TIME: f64 = 1e-9;
+/// Round-off of a quotient of two times, with room \[-\].
+const QUOTIENT_ROUND_OFF: f64 = 1e-12;
+
 fn reached(time: f64, target: f64, scale: f64) -> bool {
-    time >= target - 1e-9 * scale.abs()
+    time >= target - SAME_TIME * scale.abs()
 }
 
 impl Results {
@@ -151,6 +156,7 @@ impl Results {
 
     /// True when [`Results::frame`] would write something: call it with step 0 at the start and with `last` at the
     /// end, also of a run that stops.
+    #[must_use]
     pub fn wants_frame(&self, step: usize, time: f64, last: bool) -> bool {
         let pictures =
             (0..self.schedule.plots.len()).any(|i| self.schedule.picture_due(i, time, last));

@@ -19,6 +19,7 @@ pub enum Status {
 
 /// What a run did and cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Summary {
     /// How it ended.
     pub status: Status,
@@ -71,6 +72,7 @@ pub struct Summary {
 
 /// Energy audit of a run \[J\].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct EnergySummary {
     /// Kinetic, strain and adhesive energy at the start \[J\].
     pub initial: f64,
@@ -84,6 +86,7 @@ pub struct EnergySummary {
 
 impl EnergySummary {
     /// From the total energy at the start \[J\] and the energies at the end.
+    #[must_use]
     pub fn new(initial: f64, end: &Energies) -> EnergySummary {
         EnergySummary {
             initial,
@@ -108,6 +111,7 @@ impl EnergySummary {
 
     /// What the listed terms leave unexplained \[J\]: end - initial - work + dissipations + integration error. Each
     /// term has its own formula, so zero proves something.
+    #[must_use]
     pub fn unexplained(&self) -> f64 {
         self.end - self.initial - self.terms.load_work + self.terms.lost()
     }

@@ -6,6 +6,7 @@ use std::io::{self, Write as _};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 
+use super::frame::SYMMETRIC;
 use super::{Array, Frame, Values};
 
 /// Bytes compressed together; VTK reads any size.
@@ -131,7 +132,7 @@ impl Appended {
                     .map(|(i, n)| format!(" ComponentName{i}=\"{n}\""));
                 let attributes = components + &names.collect::<String>();
                 let vtk = values
-                    .chunks_exact(6)
+                    .chunks_exact(SYMMETRIC)
                     .flat_map(|s| [s[0], s[1], s[2], s[3], s[5], s[4]]);
                 self.array("Float64", array.name, &attributes, &floats(vtk))
             }

@@ -25,6 +25,18 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body at rest, all else left to its default, as in a file.
+    #[must_use]
+    pub fn new(mesh: Mesh, material: impl Into<String>) -> Body {
+        Body {
+            mesh,
+            material: material.into(),
+            velocity: [0.0; 3],
+            spin: [0.0; 3],
+            dilatation: Dilatation::default(),
+        }
+    }
+
     /// Initial velocity \[m/s\] of its node at `point` \[m\].
     pub(crate) fn velocity_at(&self, point: [f64; 3]) -> [f64; 3] {
         let turn = |i: usize, j: usize| self.spin[i] * point[j] - self.spin[j] * point[i];
@@ -32,7 +44,8 @@ impl Body {
     }
 }
 
-/// What the third direction of a plane scene is like.
+/// What the third direction of a plane scene is like. A solid scene says nothing, where the library's
+/// [`fe_core::Symmetry`] says `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Symmetry {

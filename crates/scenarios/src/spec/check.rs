@@ -253,11 +253,7 @@ impl Checker<'_> {
     }
 
     fn motion(&mut self, motion: &Motion, path: &str) {
-        let Motion::Move {
-            translation,
-            rotation,
-        } = motion
-        else {
+        let Some((translation, rotation)) = motion.parts() else {
             return;
         };
         for (i, table) in translation.iter().enumerate() {

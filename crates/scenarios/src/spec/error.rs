@@ -8,6 +8,7 @@ use super::source::{Fault, Source};
 
 /// Why a scene cannot be used.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SceneError {
     /// Neither a built-in scene nor a file.
     #[error(

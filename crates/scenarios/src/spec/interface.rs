@@ -1,5 +1,6 @@
 //! Contact interfaces.
 
+use contact_bipotential::Shape;
 use contact_bipotential::rcc::{Healing, Reference, Update};
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +30,22 @@ pub struct Interface {
     /// Bonds between the surfaces, if any.
     #[serde(default)]
     pub adhesion: Option<Adhesion>,
+}
+
+impl Interface {
+    /// A pair of surfaces without friction and bonds, all else left to its default, as in a file.
+    #[must_use]
+    pub fn new(slave: impl Into<String>, master: Master) -> Interface {
+        Interface {
+            slave: slave.into(),
+            master,
+            motion: Motion::default(),
+            mu: 0.0,
+            restitution: 0.0,
+            search_distance: None,
+            adhesion: None,
+        }
+    }
 }
 
 /// Bonds that break and heal: `b beta' = w - beta (C_n x_n^2 + C_t |u_t|^2)` with `0 <= beta <= 1` [Hu2022, eq. 12-15].
@@ -72,8 +89,11 @@ pub struct Adhesion {
 }
 
 fn threshold() -> f64 {
-    1e-4
+    THRESHOLD
 }
+
+/// Default of [`Adhesion::threshold`] \[-\]: a bond of this intensity carries 1e-8 of a full one, which is nothing.
+const THRESHOLD: f64 = 1e-4;
 
 /// A stiffness along the two tangents.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,6 +117,9 @@ impl Stiffness {
 
 /// The master side of an interface. A rigid shape is free space outside. In a plane scene its section at z = 0 counts;
 /// in an axisymmetric one that section sweeps a ring round the axis, so that a ball beside the axis is an O-ring.
+///
+/// A new rigid shape is a variant of the library's [`Shape`] and one here, with its arms of `Master::side` and
+/// `Master::form`; checks, descriptions and models ask no more.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Master {
@@ -143,4 +166,144 @@ pub enum Master {
         /// Radius \[m\].
         radius: f64,
     },
+}
+
+/// What the master of an interface is.
+pub(crate) enum Side<'a> {
+    /// A facet set of a deformable body.
+    Deformable(&'a str),
+    /// A solid that does not deform.
+    Rigid(Shape),
+}
+
+/// A master in words and by its values.
+pub(crate) struct Form {
+    /// For descriptions.
+    pub(crate) words: String,
+    /// What bounds apply to, by field.
+    pub(crate) values: Vec<(&'static str, ShapeValue)>,
+    /// Fields that have no z in a plane scene, so that the shape is symmetric about the plane of its section.
+    pub(crate) flat: &'static [&'static str],
+}
+
+/// A value of a rigid shape by the bounds that it has.
+#[derive(Clone, Copy)]
+pub(crate) enum ShapeValue {
+    /// A place \[m\].
+    Point([f64; 3]),
+    /// A direction of any length but zero \[-\].
+    Direction([f64; 3]),
+    /// A radius \[m\].
+    Radius(f64),
+    /// Angle between the axis and the surface of a cone \[degrees\].
+    SemiApexAngle(f64),
+}
+
+impl Master {
+    /// The facet set, or the shape of the library.
+    pub(crate) fn side(&self) -> Side<'_> {
+        Side::Rigid(match *self {
+            Master::Facets(ref set) => return Side::Deformable(set),
+            Master::Plane { point, normal } => Shape::Plane {
+                point: point.into(),
+                normal: normal.into(),
+            },
+            Master::Sphere { center, radius } => Shape::Sphere {
+                center: center.into(),
+                radius,
+            },
+            Master::Cylinder {
+                point,
+                axis,
+                radius,
+            } => Shape::Cylinder {
+                point: point.into(),
+                axis: axis.into(),
+                radius,
+            },
+            Master::Cone {
+                apex,
+                axis,
+                semi_apex_angle,
+            } => Shape::Cone {
+                apex: apex.into(),
+                axis: axis.into(),
+                semi_apex_angle: semi_apex_angle.to_radians(),
+            },
+            Master::Punch {
+                center,
+                axis,
+                radius,
+            } => Shape::Punch {
+                center: center.into(),
+                axis: axis.into(),
+                radius,
+            },
+        })
+    }
+
+    /// Its words and values.
+    pub(crate) fn form(&self) -> Form {
+        use ShapeValue::{Direction, Point, Radius, SemiApexAngle};
+        let rigid = |words: &str, flat, values: &[_]| Form {
+            words: format!("rigid {words}"),
+            values: values.to_vec(),
+            flat,
+        };
+        match *self {
+            Master::Facets(ref set) => Form {
+                words: format!("`{set}`"),
+                values: Vec::new(),
+                flat: &[],
+            },
+            Master::Plane { point, normal } => {
+                let values = [("point", Point(point)), ("normal", Direction(normal))];
+                rigid("plane", &["normal"], &values)
+            }
+            Master::Sphere { center, radius } => {
+                let values = [("center", Point(center)), ("radius", Radius(radius))];
+                rigid("sphere", &["center"], &values)
+            }
+            Master::Cylinder {
+                point,
+                axis,
+                radius,
+            } => {
+                let (place, way) = (("point", Point(point)), ("axis", Direction(axis)));
+                let flat: &[_] = if along_z(axis) {
+                    &[]
+                } else {
+                    &["point", "axis"]
+                };
+                rigid("cylinder", flat, &[place, way, ("radius", Radius(radius))])
+            }
+            Master::Cone {
+                apex,
+                axis,
+                semi_apex_angle,
+            } => {
+                let (place, way) = (("apex", Point(apex)), ("axis", Direction(axis)));
+                let angle = ("semi_apex_angle", SemiApexAngle(semi_apex_angle));
+                rigid("cone", &["apex", "axis"], &[place, way, angle])
+            }
+            Master::Punch {
+                center,
+                axis,
+                radius,
+            } => {
+                let (place, way) = (("center", Point(center)), ("axis", Direction(axis)));
+                let values = [place, way, ("radius", Radius(radius))];
+                rigid("punch", &["center", "axis"], &values)
+            }
+        }
+    }
+}
+
+/// Largest component across a line that counts as none, as a part of the length of the vector \[-\]: round-off of a
+/// direction given by sines and cosines, with room.
+pub(crate) const FLAT: f64 = 1e-12;
+
+/// True for a vector along z.
+pub(crate) fn along_z([x, y, z]: [f64; 3]) -> bool {
+    x.hypot(y) <= FLAT * z.abs()
 }

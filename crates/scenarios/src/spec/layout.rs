@@ -8,6 +8,7 @@ const BOND_COLUMNS: [&str; 3] = ["beta_max", "beta_mean", "bonded"];
 
 /// Which columns a run has.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Layout {
     /// Interfaces, then motions, in the order of the scene.
     pub forces: Vec<String>,
@@ -19,6 +20,7 @@ pub struct Layout {
 
 /// Columns of one probe.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ProbeColumns {
     /// Name of the probe.
     pub name: String,
@@ -28,6 +30,7 @@ pub struct ProbeColumns {
 
 impl Layout {
     /// The columns of a scene.
+    #[must_use]
     pub fn of(scene: &Scene) -> Layout {
         let probes = scene.output.probes.iter();
         Layout {
@@ -53,6 +56,7 @@ impl Layout {
     }
 
     /// Header of `history.csv`.
+    #[must_use]
     pub fn header(&self) -> Vec<String> {
         let mut header = vec!["t".to_owned()];
         header.extend(ENERGY_TERMS.map(|term| term.column.to_owned()));

@@ -11,6 +11,7 @@ use super::source::{Fault, Source};
 
 /// A scene with the text it came from, so that whatever is built from it can still point into the file.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct LoadedScene {
     /// The scene.
     pub scene: Scene,

@@ -14,6 +14,7 @@ const MAX_DEPTH: usize = 128;
 /// The text is not RON.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("expected {expected} at byte {offset}")]
+#[non_exhaustive]
 pub struct ScanError {
     /// What should stand there.
     pub expected: &'static str,
@@ -23,6 +24,7 @@ pub struct ScanError {
 
 /// A value of the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Node {
     /// Bytes of the value, name of struct or variant included.
     pub span: Range<usize>,
@@ -81,6 +83,7 @@ impl SpanTree {
     }
 
     /// The value at a path; the empty path is the outermost value.
+    #[must_use]
     pub fn find(&self, path: &str) -> Option<&Node> {
         let (node, rest) = self.deepest(path);
         rest.is_empty().then_some(node)
@@ -100,6 +103,7 @@ impl SpanTree {
     }
 
     /// Bytes of the name of a field or key at a path.
+    #[must_use]
     pub fn find_key(&self, path: &str) -> Option<Range<usize>> {
         let (parent, last) = path.rsplit_once('.').unwrap_or(("", path));
         let parent = self.find(parent)?.content();

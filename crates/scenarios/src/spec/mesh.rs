@@ -1,37 +1,38 @@
 //! Meshes of bodies: the shapes of `fe-core`, as a scene names them.
 
-use std::fmt;
-
 use fe_core::{
     AnnulusMesh, BoxMesh, CellKind, DiscMesh, GridAxis, GridMesh, HalfBallMesh, HalfDiscMesh,
     MeshError, QuarterDiscMesh, RectangleMesh, text,
 };
-use serde::de::{self, EnumAccess, VariantAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, forward_to_deserialize_any};
+use serde::{Deserialize, Serialize};
 
-/// Mesh of a body. All meshes have the node set `all`; the other sets are of nodes and facets unless said. Cells are
-/// counted before the `refine` of the scene.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub enum Mesh {
-    /// Structured block. Sets `x_min` .. `z_max`.
-    Box(BoxMesh),
-    /// Half of a ball of hexahedra; its flat face is normal to z. Sets `dome`, `base`.
-    HalfBall(HalfBallMesh),
-    /// Plane structured rectangle. Sets `x_min` .. `y_max`.
-    Rectangle(RectangleMesh),
-    /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
-    Grid(PlaneGrid),
-    /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
-    SolidGrid(SolidGrid),
-    /// Disc. Set `rim`, node set `center` (the node nearest the centre).
-    Disc(DiscMesh),
-    /// Half of a disc of quadrilaterals; its flat side is normal to y. Sets `dome`, `base`.
-    HalfDisc(HalfDiscMesh),
-    /// Quarter of a disc of quadrilaterals, x not below that of the centre: half of a ball in an axisymmetric scene.
-    /// Sets `dome`, `base` (normal to y), `axis` (normal to x).
-    QuarterDisc(QuarterDiscMesh),
-    /// Ring of quadrilaterals. Sets `inner`, `outer`.
-    Annulus(AnnulusMesh),
+use super::variants::struct_variants;
+
+struct_variants! {
+    /// Mesh of a body. All meshes have the node set `all`; the other sets are of nodes and facets unless said. Cells
+    /// are counted before the `refine` of the scene.
+    #[derive(Clone, Debug, PartialEq, Serialize)]
+    pub enum Mesh {
+        /// Structured block. Sets `x_min` .. `z_max`.
+        Box(BoxMesh),
+        /// Half of a ball of hexahedra; its flat face is normal to z. Sets `dome`, `base`.
+        HalfBall(HalfBallMesh),
+        /// Plane structured rectangle. Sets `x_min` .. `y_max`.
+        Rectangle(RectangleMesh),
+        /// Plane rectilinear mesh with graded axes. Sets `x_min` .. `y_max`.
+        Grid(PlaneGrid),
+        /// Solid rectilinear mesh with graded axes. Sets `x_min` .. `z_max`.
+        SolidGrid(SolidGrid),
+        /// Disc. Set `rim`, node set `center` (the node nearest the centre).
+        Disc(DiscMesh),
+        /// Half of a disc of quadrilaterals; its flat side is normal to y. Sets `dome`, `base`.
+        HalfDisc(HalfDiscMesh),
+        /// Quarter of a disc of quadrilaterals, x not below that of the centre: half of a ball in an axisymmetric
+        /// scene. Sets `dome`, `base` (normal to y), `axis` (normal to x).
+        QuarterDisc(QuarterDiscMesh),
+        /// Ring of quadrilaterals. Sets `inner`, `outer`.
+        Annulus(AnnulusMesh),
+    }
 }
 
 /// A plane rectilinear mesh.
@@ -73,79 +74,6 @@ pub struct SolidGrid {
     pub crown: Option<f64>,
 }
 
-/// The name of a shape.
-#[derive(Deserialize)]
-#[serde(variant_identifier)]
-enum Shape {
-    Box,
-    HalfBall,
-    Rectangle,
-    Grid,
-    SolidGrid,
-    Disc,
-    HalfDisc,
-    QuarterDisc,
-    Annulus,
-}
-
-// A derived implementation would read `Box((min: ..))`; a scene says `Box(min: ..)`.
-impl<'de> Deserialize<'de> for Mesh {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Mesh, D::Error> {
-        deserializer.deserialize_enum("Mesh", &[], Shapes)
-    }
-}
-
-struct Shapes;
-
-impl<'de> Visitor<'de> for Shapes {
-    type Value = Mesh;
-
-    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("enum Mesh")
-    }
-
-    fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Mesh, A::Error> {
-        let (shape, fields) = data.variant()?;
-        let fields = Fields(fields);
-        match shape {
-            Shape::Box => BoxMesh::deserialize(fields).map(Mesh::Box),
-            Shape::HalfBall => HalfBallMesh::deserialize(fields).map(Mesh::HalfBall),
-            Shape::Rectangle => RectangleMesh::deserialize(fields).map(Mesh::Rectangle),
-            Shape::Grid => PlaneGrid::deserialize(fields).map(Mesh::Grid),
-            Shape::SolidGrid => SolidGrid::deserialize(fields).map(Mesh::SolidGrid),
-            Shape::Disc => DiscMesh::deserialize(fields).map(Mesh::Disc),
-            Shape::HalfDisc => HalfDiscMesh::deserialize(fields).map(Mesh::HalfDisc),
-            Shape::QuarterDisc => QuarterDiscMesh::deserialize(fields).map(Mesh::QuarterDisc),
-            Shape::Annulus => AnnulusMesh::deserialize(fields).map(Mesh::Annulus),
-        }
-    }
-}
-
-/// The fields of a variant as those of a struct.
-struct Fields<A>(A);
-
-impl<'de, A: VariantAccess<'de>> Deserializer<'de> for Fields<A> {
-    type Error = A::Error;
-
-    fn deserialize_struct<V: Visitor<'de>>(
-        self,
-        _: &'static str,
-        fields: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, A::Error> {
-        self.0.struct_variant(fields, visitor)
-    }
-
-    fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, A::Error> {
-        Err(de::Error::custom("a shape has named fields"))
-    }
-
-    forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
-        newtype_struct seq tuple tuple_struct map enum identifier ignored_any
-    }
-}
-
 impl PlaneGrid {
     fn generate(&self, refine: usize, name: &str) -> Result<fe_core::Mesh, MeshError> {
         let axes = vec![self.x.clone(), self.y.clone()];
@@ -176,6 +104,7 @@ fn grid(
 
 /// Counts of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct MeshSize {
     /// Nodes \[-\].
     pub nodes: usize,
@@ -192,6 +121,7 @@ impl Mesh {
     }
 
     /// Counts of the mesh with each cell count multiplied by `refine`.
+    #[must_use]
     pub fn size(&self, refine: usize) -> MeshSize {
         let fine = |n: usize| n as f64 * refine as f64;
         let half = |n: usize| (0.5 * fine(n)).ceil();
@@ -255,6 +185,19 @@ impl Mesh {
         }
     }
 
+    /// Smallest x of a plane mesh \[m\], 0 for a solid one.
+    pub(crate) fn leftmost(&self) -> f64 {
+        match self {
+            Mesh::Rectangle(m) => m.min[0],
+            Mesh::Grid(m) => m.x.pieces.iter().map(|p| p.to()).fold(m.x.from, f64::min),
+            Mesh::Disc(m) => m.center[0] - m.radius,
+            Mesh::HalfDisc(m) => m.center[0] - m.radius,
+            Mesh::QuarterDisc(m) => m.center[0],
+            Mesh::Annulus(m) => m.center[0] - m.outer,
+            Mesh::Box(_) | Mesh::SolidGrid(_) | Mesh::HalfBall(_) => 0.0,
+        }
+    }
+
     /// Kind of its cells.
     pub fn kind(&self) -> CellKind {
         match self {
@@ -289,6 +232,7 @@ impl Mesh {
     }
 
     /// Names of the node sets: those of the facets, the nodes at single places, and `all`.
+    #[must_use]
     pub fn node_sets(&self) -> Vec<&'static str> {
         let places: &[&str] = match self {
             Mesh::Disc(_) => &["center"],

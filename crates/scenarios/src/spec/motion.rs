@@ -22,6 +22,7 @@ impl Default for Table {
 
 impl Table {
     /// Points `(t \[s\], value)`; a constant is one point at t = 0.
+    #[must_use]
     pub fn points(&self) -> Vec<(f64, f64)> {
         match self {
             Table::Constant(value) => vec![(0.0, *value)],
@@ -129,6 +130,20 @@ pub enum Motion {
         #[serde(default)]
         rotation: Option<Rotation>,
     },
+}
+
+impl Motion {
+    /// Translation along x, y, z and rotation; nothing where nothing moves. Checks and models read a motion by these
+    /// alone, so that a new kind of motion is told here.
+    pub(crate) fn parts(&self) -> Option<(&[Table; 3], Option<&Rotation>)> {
+        match self {
+            Motion::Fixed => None,
+            Motion::Move {
+                translation,
+                rotation,
+            } => Some((translation, rotation.as_ref())),
+        }
+    }
 }
 
 /// Rotation about an axis that stays where it is in the reference position.

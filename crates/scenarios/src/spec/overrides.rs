@@ -61,7 +61,10 @@ pub(super) fn resolve(paths: &[String], asked: &str) -> Result<String, String> {
     }
 }
 
-/// Paths one of whose endings looks like `asked`, at most five.
+/// Paths that an error proposes at most.
+const MOST_NEAR: usize = 5;
+
+/// Paths one of whose endings looks like `asked`; two slips are allowed, and one more for every six letters.
 fn near_paths(paths: &[String], asked: &str) -> Vec<String> {
     let depth = asked.split('.').count();
     let ending = |path: &str| {
@@ -75,7 +78,7 @@ fn near_paths(paths: &[String], asked: &str) -> Vec<String> {
         .collect();
     near.sort_by_key(|(d, _)| *d);
     near.into_iter()
-        .take(5)
+        .take(MOST_NEAR)
         .map(|(_, path)| path.clone())
         .collect()
 }

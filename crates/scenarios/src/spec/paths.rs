@@ -7,6 +7,7 @@ use super::locate::join;
 
 /// Dotted paths of all fields, keys and positions inside `value`, outer before inner. Variants and `Some` take no
 /// part in a path, as in the text (see [`SpanTree`](super::SpanTree)).
+#[must_use]
 pub fn field_paths<T: Serialize + ?Sized>(value: &T) -> Vec<String> {
     let mut found = Vec::new();
     // Fails only for map keys that are not strings, which no scene has.
@@ -81,6 +82,14 @@ macro_rules! leaves {
     };
 }
 
+macro_rules! compounds {
+    ($($method:ident: $($argument:ty),+;)*) => {
+        $(fn $method(self, $(_: $argument),+) -> Result<Inside<'a>, NotAKey> {
+            Ok(self.inside())
+        })*
+    };
+}
+
 impl<'a> ser::Serializer for Collector<'a> {
     type Ok = ();
     type Error = NotAKey;
@@ -138,44 +147,14 @@ impl<'a> ser::Serializer for Collector<'a> {
         value.serialize(self)
     }
 
-    fn serialize_seq(self, _: Option<usize>) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_tuple(self, _: usize) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_tuple_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_map(self, _: Option<usize>) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
-    }
-
-    fn serialize_struct_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Inside<'a>, NotAKey> {
-        Ok(self.inside())
+    compounds! {
+        serialize_seq: Option<usize>;
+        serialize_tuple: usize;
+        serialize_tuple_struct: &'static str, usize;
+        serialize_tuple_variant: &'static str, u32, &'static str, usize;
+        serialize_map: Option<usize>;
+        serialize_struct: &'static str, usize;
+        serialize_struct_variant: &'static str, u32, &'static str, usize;
     }
 }
 

@@ -32,9 +32,12 @@ pub enum FieldsEvery {
 
 impl Default for FieldsEvery {
     fn default() -> Self {
-        FieldsEvery::Steps(10)
+        FieldsEvery::Steps(EVERY)
     }
 }
+
+/// Default distance of written fields \[steps\]: a film of ten pictures for a hundred steps, at a tenth of the space.
+const EVERY: usize = 10;
 
 /// One picture, an SVG file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

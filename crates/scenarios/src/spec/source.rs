@@ -11,6 +11,7 @@ use super::overrides::Override;
 
 /// Text of a scene after the overrides.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Source {
     /// File, or name of a built-in scene.
     pub name: String,
@@ -22,6 +23,7 @@ pub struct Source {
 
 /// One thing wrong in a scene.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Fault {
     /// File, or name of a built-in scene.
     pub file: String,
@@ -234,12 +236,18 @@ fn around(tree: &SpanTree, at: usize, kind: impl Fn(&NodeKind) -> bool) -> (Stri
         .unwrap_or_else(|| (String::new(), tree.root()))
 }
 
+/// Longest value that an error repeats \[characters\]: with its sentence it stays on two lines of a terminal.
+const LONGEST_SHOWN: usize = 60;
+/// Stands for the rest of a longer one.
+const DOTS: &str = "...";
+
 fn shorten(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    if line.chars().count() <= 60 {
+    if line.chars().count() <= LONGEST_SHOWN {
         return line;
     }
-    line.chars().take(57).chain("...".chars()).collect()
+    let kept = line.chars().take(LONGEST_SHOWN - DOTS.len());
+    kept.chain(DOTS.chars()).collect()
 }
 
 /// Line and column from 1, the column in characters.

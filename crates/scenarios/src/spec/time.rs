@@ -30,6 +30,7 @@ pub struct Time {
 
 impl Time {
     /// Steps `dt` \[s\] until `end` \[s\] with the trapezoidal scheme, all else left to its default.
+    #[must_use]
     pub fn new(end: f64, dt: f64) -> Time {
         Time {
             end,

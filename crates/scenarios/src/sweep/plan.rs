@@ -57,6 +57,7 @@ fn split(text: &str) -> Vec<String> {
 
 /// Why a sweep is refused before anything is computed.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum SweepError {
     /// Two `--vary` of the same field.
     #[error("--vary {path}: this field is varied twice; give all its values in one --vary")]
@@ -146,6 +147,7 @@ impl Sweep {
     }
 
     /// The varied fields of a run with their values, `mu=0.2, dt=1e-3`.
+    #[must_use]
     pub fn which(&self, index: usize) -> String {
         pairs(&self.names, &self.runs[index].values).join(", ")
     }

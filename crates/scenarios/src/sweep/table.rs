@@ -57,6 +57,7 @@ impl Sweep {
     }
 
     /// The table for people: varied fields, status, costs and peaks of the forces.
+    #[must_use]
     pub fn table(&self, outcomes: &[Outcome]) -> String {
         let mut heads = vec!["run".to_owned()];
         heads.extend(self.names.iter().cloned());

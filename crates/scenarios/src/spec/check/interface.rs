@@ -1,7 +1,9 @@
 //! Interfaces: shapes, friction, bonds.
 
 use super::Checker;
-use crate::spec::{Adhesion, ContactLevel, Healing, Interface, Master, Motion, Stiffness, Update};
+use crate::spec::{
+    Adhesion, ContactLevel, Healing, Interface, Master, Motion, ShapeValue, Stiffness, Update,
+};
 
 impl Checker<'_> {
     pub(super) fn interfaces(&mut self) {
@@ -29,60 +31,30 @@ impl Checker<'_> {
 
     fn master(&mut self, interface: &Interface, path: &str) {
         let master = format!("{path}.master");
-        match &interface.master {
-            Master::Facets(facets) => {
-                self.set(facets, "facet", &master);
-                self.require(
-                    *facets != interface.slave,
-                    &master,
-                    "must not be the slave itself",
-                );
-                let still = interface.motion == Motion::Fixed;
-                self.require(
-                    still,
-                    &format!("{path}.motion"),
-                    "is for rigid masters; move a body by motions",
-                );
-            }
-            Master::Plane { point, normal } => {
-                self.finite(point, &format!("{master}.point"));
-                self.direction(*normal, &format!("{master}.normal"));
-            }
-            Master::Sphere { center, radius } => {
-                self.finite(center, &format!("{master}.center"));
-                self.positive(*radius, &format!("{master}.radius"), "m");
-            }
-            Master::Cylinder {
-                point,
-                axis,
-                radius,
-            } => {
-                self.finite(point, &format!("{master}.point"));
-                self.direction(*axis, &format!("{master}.axis"));
-                self.positive(*radius, &format!("{master}.radius"), "m");
-            }
-            Master::Punch {
-                center,
-                axis,
-                radius,
-            } => {
-                self.finite(center, &format!("{master}.center"));
-                self.direction(*axis, &format!("{master}.axis"));
-                self.positive(*radius, &format!("{master}.radius"), "m");
-            }
-            Master::Cone {
-                apex,
-                axis,
-                semi_apex_angle,
-            } => {
-                self.finite(apex, &format!("{master}.apex"));
-                self.direction(*axis, &format!("{master}.axis"));
-                let sharp = *semi_apex_angle > 0.0 && *semi_apex_angle < 90.0;
-                self.require(
-                    sharp,
-                    &format!("{master}.semi_apex_angle"),
-                    "must be between 0 and 90 [degrees]",
-                );
+        if let Master::Facets(facets) = &interface.master {
+            self.set(facets, "facet", &master);
+            self.require(
+                *facets != interface.slave,
+                &master,
+                "must not be the slave itself",
+            );
+            let still = interface.motion == Motion::Fixed;
+            self.require(
+                still,
+                &format!("{path}.motion"),
+                "is for rigid masters; move a body by motions",
+            );
+        }
+        for (field, value) in interface.master.form().values {
+            let path = format!("{master}.{field}");
+            match value {
+                ShapeValue::Point(point) => self.finite(&point, &path),
+                ShapeValue::Direction(direction) => self.direction(direction, &path),
+                ShapeValue::Radius(radius) => self.positive(radius, &path, "m"),
+                ShapeValue::SemiApexAngle(angle) => {
+                    let sharp = angle > 0.0 && angle < 90.0;
+                    self.require(sharp, &path, "must be between 0 and 90 [degrees]");
+                }
             }
         }
         self.motion(&interface.motion, &format!("{path}.motion"));

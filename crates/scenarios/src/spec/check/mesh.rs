@@ -5,6 +5,9 @@ use fe_core::{AnnulusMesh, CellKind};
 use super::{Checker, MAX_GRADING, MAX_NODES};
 use crate::spec::{GridAxis, GridPiece, Mesh};
 
+/// Fewest cells of a ring, around and through: two around would be one on the other.
+const LEAST_OF_RING: [usize; 2] = [3, 1];
+
 impl Checker<'_> {
     pub(super) fn mesh(&mut self, mesh: &Mesh, path: &str) {
         match mesh {
@@ -43,7 +46,7 @@ impl Checker<'_> {
         let message = format!("must be greater than inner = {} [m]", ring.inner);
         let larger = ring.outer.is_finite() && ring.outer > ring.inner;
         self.require(larger, &format!("{path}.outer"), message);
-        for (i, least) in [3, 1].into_iter().enumerate() {
+        for (i, least) in LEAST_OF_RING.into_iter().enumerate() {
             self.cells(ring.cells[i], least, &format!("{path}.cells.{i}"));
         }
         self.grading(ring.grading, &format!("{path}.grading"));

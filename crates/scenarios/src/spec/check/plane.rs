@@ -1,10 +1,7 @@
 //! What a plane scene adds: all bodies of one kind, and nothing out of the plane.
 
 use super::Checker;
-use crate::spec::{Load, Master, Mesh, Motion, Symmetry, Table};
-
-/// Largest z that counts as none, as a part of the length of the vector.
-const FLAT: f64 = 1e-12;
+use crate::spec::{FLAT, Load, Motion, ShapeValue, Symmetry, Table, along_z};
 
 impl Checker<'_> {
     pub(super) fn plane(&mut self) {
@@ -66,7 +63,7 @@ impl Checker<'_> {
             let fine = !self.axisymmetric() || z == 0.0;
             let message = "must be 0 [rad/s]: an axisymmetric body cannot turn out of its symmetry";
             self.require(fine, &path, message);
-            let left = leftmost(&body.mesh);
+            let left = body.mesh.leftmost();
             let message = format!(
                 "reaches to x = {left} [m]; in an axisymmetric scene x is the radius, 0 or more"
             );
@@ -83,11 +80,7 @@ impl Checker<'_> {
     }
 
     fn flat_motion(&mut self, motion: &Motion, path: &str) {
-        let Motion::Move {
-            translation,
-            rotation,
-        } = motion
-        else {
+        let Some((translation, rotation)) = motion.parts() else {
             return;
         };
         let message = "must be 0 [m]: a plane scene has no z";
@@ -103,9 +96,8 @@ impl Checker<'_> {
             self.require(false, &path, message);
             return;
         }
-        let [x, y, z] = rotation.axis;
         self.require(
-            x.hypot(y) <= FLAT * z.abs(),
+            along_z(rotation.axis),
             &format!("{path}.axis"),
             "must be along z: a plane scene turns in its plane",
         );
@@ -133,35 +125,20 @@ impl Checker<'_> {
         for (name, interface) in &self.scene.interfaces {
             let path = format!("interfaces.{name}");
             let master = format!("{path}.master");
-            match &interface.master {
-                Master::Facets(_) => {}
-                Master::Plane { normal, .. } => {
-                    self.flat(*normal, &format!("{master}.normal"), "-");
-                }
-                Master::Sphere { center, .. } => {
-                    self.flat(*center, &format!("{master}.center"), "m");
-                }
-                Master::Cylinder { point, axis, .. } => {
-                    let across = axis[0].hypot(axis[1]) <= FLAT * axis[2].abs();
-                    if !across {
-                        self.flat(*axis, &format!("{master}.axis"), "-");
-                        self.flat(*point, &format!("{master}.point"), "m");
-                    }
-                }
-                Master::Punch { center, axis, .. } => {
-                    self.flat(*center, &format!("{master}.center"), "m");
-                    self.flat(*axis, &format!("{master}.axis"), "-");
-                }
-                Master::Cone { apex, axis, .. } => {
-                    self.flat(*apex, &format!("{master}.apex"), "m");
-                    self.flat(*axis, &format!("{master}.axis"), "-");
+            let form = interface.master.form();
+            let flat = form.values.iter();
+            for (field, value) in flat.filter(|(field, _)| form.flat.contains(field)) {
+                let path = format!("{master}.{field}");
+                match *value {
+                    ShapeValue::Point(point) => self.flat(point, &path, "m"),
+                    ShapeValue::Direction(direction) => self.flat(direction, &path, "-"),
+                    ShapeValue::Radius(_) | ShapeValue::SemiApexAngle(_) => {}
                 }
             }
             let path = format!("{path}.motion");
             self.flat_motion(&interface.motion, &path);
-            if let (true, Motion::Move { translation, .. }) =
-                (self.axisymmetric(), &interface.motion)
-            {
+            let moves = interface.motion.parts().filter(|_| self.axisymmetric());
+            if let Some((translation, _)) = moves {
                 let message = "must be 0 [m]: a rigid ring keeps its radius";
                 self.require(
                     is_zero(&translation[0]),
@@ -175,17 +152,4 @@ impl Checker<'_> {
 
 fn is_zero(table: &Table) -> bool {
     table.points().iter().all(|(_, value)| *value == 0.0)
-}
-
-/// Smallest x of a plane mesh \[m\].
-fn leftmost(mesh: &Mesh) -> f64 {
-    match mesh {
-        Mesh::Rectangle(m) => m.min[0],
-        Mesh::Grid(m) => m.x.pieces.iter().map(|p| p.to()).fold(m.x.from, f64::min),
-        Mesh::Disc(m) => m.center[0] - m.radius,
-        Mesh::HalfDisc(m) => m.center[0] - m.radius,
-        Mesh::QuarterDisc(m) => m.center[0],
-        Mesh::Annulus(m) => m.center[0] - m.outer,
-        Mesh::Box(_) | Mesh::SolidGrid(_) | Mesh::HalfBall(_) => 0.0,
-    }
 }
