@@ -13,14 +13,14 @@ use contact_bipotential::conformance::half_space;
 use contact_bipotential::{Method, SingleContact, SolveSettings, solve};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fe_core::tangent_len;
-use fe_core::{BoxMesh, Mesh, Solid, SymmetricPattern, solid_block};
+use fe_core::{BoxMesh, Solid, SymmetricPattern, ValidMesh, solid_block};
 use hyperelastic::{
     BlatzKo, ElasticConstants, Material, NeoHookean, SaintVenantKirchhoff, Symmetric, ThreeE,
 };
 use nalgebra::{Matrix3, Vector3};
 use nscd::{NoClock, Stepper};
 
-fn mesh() -> (Mesh, Vec<f64>) {
+fn mesh() -> (ValidMesh, Vec<f64>) {
     let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [8; 3])
         .generate("box")
         .unwrap();
@@ -32,7 +32,7 @@ fn mesh() -> (Mesh, Vec<f64>) {
         ]
     };
     let u = mesh.points.iter().flat_map(wave).collect();
-    (mesh, u)
+    (mesh.validated().unwrap(), u)
 }
 
 fn elastic() -> ElasticConstants {

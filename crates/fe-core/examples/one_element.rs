@@ -9,7 +9,9 @@ const STEP: f64 = 1e-5;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let law = NeoHookean::new(ElasticConstants::from_young_poisson(10.0e6, 0.45)?)?;
-    let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [1; 3]).generate("cube")?;
+    let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [1; 3])
+        .generate("cube")?
+        .validated()?;
     let end = mesh.node_set("x_max")?.to_vec();
     let block = solid_block(&mesh, 0, law, 1000.0)?;
     let solid = Solid::new(mesh, vec![block])?;

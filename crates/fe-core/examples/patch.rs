@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         if kind.degree() == 2 {
             mesh = mesh.quadratic()?;
         }
+        let mesh = mesh.validated()?;
         let block = solid_block(&mesh, 0, BlatzKo::new(1.5e6)?, 1000.0)?;
         let solid = Solid::new(mesh, vec![block])?;
 

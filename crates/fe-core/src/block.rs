@@ -15,7 +15,7 @@ use hyperelastic::{Material, Symmetric};
 
 use crate::element::{Element, ElementVisitor};
 use crate::error::FeError;
-use crate::mesh::Mesh;
+use crate::mesh::ValidMesh;
 use crate::symmetry::Symmetry;
 
 pub use dilatation::Dilatation;
@@ -102,12 +102,14 @@ pub trait Block: Debug + Send + Sync {
 }
 
 /// Length of an element's tangent: one `n x n` block for each pair of components `i <= k`.
+#[must_use]
 pub const fn tangent_len(dim: usize, nodes: usize) -> usize {
     dim * (dim + 1) / 2 * nodes * nodes
 }
 
 /// Where the derivative of force `(a, i)` with respect to displacement `(b, k)` is stored: blocks (0,0) (0,1)
 /// (0,2) (1,1) (1,2) (2,2) of components, each `n a + b`. Entries with `i > k` are read from their mirror image.
+#[must_use]
 pub const fn tangent_index(
     dim: usize,
     nodes: usize,
@@ -126,7 +128,7 @@ pub const fn tangent_index(
 /// # Errors
 /// As [`SolidBlock::new`].
 pub fn solid_block<M: Material>(
-    mesh: &Mesh,
+    mesh: &ValidMesh,
     block_index: usize,
     material: M,
     density: f64,
@@ -141,7 +143,7 @@ pub fn solid_block<M: Material>(
 /// # Errors
 /// As [`SolidBlock::new`] and [`SolidBlock::with_dilatation`].
 pub fn solid_block_with<M: Material>(
-    mesh: &Mesh,
+    mesh: &ValidMesh,
     block_index: usize,
     material: M,
     density: f64,
@@ -159,7 +161,7 @@ pub fn solid_block_with<M: Material>(
 
 /// A block to be made, whatever its element.
 struct NewBlock<'a, M> {
-    mesh: &'a Mesh,
+    mesh: &'a ValidMesh,
     block_index: usize,
     material: M,
     density: f64,

@@ -7,7 +7,7 @@
 //!
 //! conformance::check_element::<Tet4, 4>()?;
 //!
-//! let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [3; 3]).with_kind(CellKind::Tet4).generate("box")?;
+//! let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [3; 3]).with_kind(CellKind::Tet4).generate("box")?.validated()?;
 //! let block = solid_block(&mesh, 0, BlatzKo::new(1.0)?, 1.0)?;
 //! let u: Vec<f64> = (0..3 * mesh.points.len()).map(|dof| 0.02 * (dof as f64).sin()).collect();
 //! conformance::check_block(block.as_ref(), &mesh.points, &u)?;

@@ -13,6 +13,7 @@ use crate::surface::Surface;
 
 /// Nodes whose displacement is prescribed, in some or all components.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Dirichlet {
     /// Nodes, sorted.
     pub nodes: Vec<u32>,
@@ -26,6 +27,7 @@ pub struct Dirichlet {
 
 impl Dirichlet {
     /// Nodes held in place in all components.
+    #[must_use]
     pub fn clamped(name: &str, nodes: Vec<u32>) -> Dirichlet {
         Dirichlet {
             nodes,
@@ -33,6 +35,20 @@ impl Dirichlet {
             motion: Motion::still(),
             name: name.to_owned(),
         }
+    }
+
+    /// With only these components prescribed.
+    #[must_use]
+    pub fn with_components(mut self, components: [bool; 3]) -> Dirichlet {
+        self.components = components;
+        self
+    }
+
+    /// With nodes that are moved.
+    #[must_use]
+    pub fn with_motion(mut self, motion: Motion) -> Dirichlet {
+        self.motion = motion;
+        self
     }
 
     /// Checks that all nodes exist.
@@ -76,6 +92,7 @@ impl Dirichlet {
 
 /// A traction that keeps its direction and acts on the reference area.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct DeadTraction {
     /// Facets it acts on.
     pub facets: Vec<Facet>,
@@ -86,6 +103,20 @@ pub struct DeadTraction {
 }
 
 impl DeadTraction {
+    /// A traction \[Pa\] on these facets, times a factor \[-\] over time.
+    #[must_use]
+    pub fn new(
+        facets: Vec<Facet>,
+        traction: impl Into<Vector3<f64>>,
+        factor: Table,
+    ) -> DeadTraction {
+        DeadTraction {
+            facets,
+            traction: traction.into(),
+            factor,
+        }
+    }
+
     /// Nodal forces \[N\] for a factor of one.
     ///
     /// # Errors
@@ -108,6 +139,7 @@ impl DeadTraction {
 
 /// Weight: a uniform acceleration that acts on all mass.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Gravity {
     /// Acceleration \[m/s^2\].
     pub acceleration: Vector3<f64>,
@@ -116,6 +148,15 @@ pub struct Gravity {
 }
 
 impl Gravity {
+    /// An acceleration \[m/s^2\], times a factor \[-\] over time.
+    #[must_use]
+    pub fn new(acceleration: impl Into<Vector3<f64>>, factor: Table) -> Gravity {
+        Gravity {
+            acceleration: acceleration.into(),
+            factor,
+        }
+    }
+
     /// Nodal forces \[N\] for a factor of one: `M` times the uniform acceleration.
     ///
     /// # Errors

@@ -1,20 +1,20 @@
 //! Isoparametric elements: shape functions, their derivatives and quadrature.
 
-pub mod hex27;
-pub mod hex8;
-pub mod quad4;
-pub mod quad9;
-pub mod tet10;
-pub mod tet4;
-pub mod tri3;
-pub mod tri6;
+mod hex27;
+mod hex8;
+mod quad4;
+mod quad9;
+mod tet10;
+mod tet4;
+mod tri3;
+mod tri6;
 
 mod facet;
 pub(crate) mod quadratic;
 
 use std::fmt::Debug;
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 pub use facet::{Facet, FacetKind};
 pub use hex8::Hex8;
@@ -25,8 +25,6 @@ pub use tet4::Tet4;
 pub use tet10::Tet10;
 pub use tri3::Tri3;
 pub use tri6::Tri6;
-
-use nalgebra::Vector3;
 
 use crate::quadrature::QuadraturePoint;
 
@@ -46,10 +44,20 @@ pub(crate) struct CellData {
     facets: &'static [&'static [usize]],
     facet_kind: FacetKind,
     vtk_type: u8,
+    grid_cut: GridCut,
+}
+
+/// How a quadrilateral or a brick of a structured mesh becomes cells of degree 1.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum GridCut {
+    /// Into these cells, by its local corners.
+    Cells(&'static [&'static [usize]]),
+    /// Along its shorter diagonal into two triangles.
+    ShorterDiagonal,
 }
 
 /// Something that is done with the element of a kind; see [`CellKind::with_element`].
-pub trait ElementVisitor {
+pub(crate) trait ElementVisitor {
     /// Result.
     type Output;
 
@@ -77,7 +85,7 @@ macro_rules! kinds {
             }
 
             /// Calls `visitor` with the element of this kind: from a value to a type.
-            pub fn with_element<V: ElementVisitor>(self, visitor: V) -> V::Output {
+            pub(crate) fn with_element<V: ElementVisitor>(self, visitor: V) -> V::Output {
                 match self {
                     $(CellKind::$kind => visitor.visit::<$kind, $nodes>(),)*
                 }
@@ -127,18 +135,15 @@ impl CellKind {
     }
 
     /// The cell of degree 1 with the same corners, whose nodes are the first of this one's.
+    #[must_use]
     pub const fn linear(self) -> CellKind {
         self.data().linear
     }
 
     /// The cell of degree 2 with the same corners.
+    #[must_use]
     pub const fn quadratic(self) -> CellKind {
         self.data().quadratic
-    }
-
-    /// Number of corners, which are the first nodes.
-    pub const fn corner_count(self) -> usize {
-        self.linear().node_count()
     }
 
     /// For each node beyond the corners, the corners in whose middle it lies; none for cells of degree 1.
@@ -159,6 +164,11 @@ impl CellKind {
     /// VTK's number for the cell type.
     pub const fn vtk_type(self) -> u8 {
         self.data().vtk_type
+    }
+
+    /// How structured meshes get cells of this kind, or those of degree 1 with the same corners.
+    pub(crate) const fn grid_cut(self) -> GridCut {
+        self.data().grid_cut
     }
 
     /// First quadrature point whose Jacobian is not positive, with that Jacobian \[m^dim\].
@@ -194,8 +204,8 @@ impl<const N: usize> Nodal for [f64; N] {}
 ///
 /// Plane elements do not depend on the third reference coordinate: their derivatives with respect to it are zero.
 ///
-/// A new element is one file with this implementation and its row of the table, and one line in the list of kinds below;
-/// the battery `conformance::check_element` tells what is wrong with it.
+/// A new element is one file with this implementation and its row of the table, and one line in the list of kinds; the
+/// battery `conformance::check_element` tells what is wrong with it.
 pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
     /// Kind of the cell.
     const KIND: CellKind;
@@ -203,8 +213,8 @@ pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
     const NODES: usize;
     /// Number of quadrature points of the force and the tangent.
     const POINTS: usize;
-    /// Functions of the projected dilatation ([`crate::Dilatation`]): the first ones of 1, X, Y, Z. Few enough that the element
-    /// does not lock, and no pressure is without resistance.
+    /// Functions of the projected dilatation ([`crate::Dilatation`]): the first ones of 1, X, Y, Z. Few enough that the
+    /// element does not lock, and no pressure is without resistance.
     const DILATATION_MODES: usize = 1;
     /// `[f64; NODES]`.
     type Nodal: Nodal;
@@ -225,13 +235,14 @@ pub trait Element: Debug + Clone + Copy + Default + Send + Sync + 'static {
 /// Coordinates of an element's nodes \[m\].
 ///
 /// Indices must be in range, which [`crate::Mesh::validate`] ensures.
+#[must_use]
 pub fn corner_points<const N: usize>(points: &[Vector3<f64>], cell: &[u32]) -> [[f64; 3]; N] {
     std::array::from_fn(|a| points[cell[a] as usize].into())
 }
 
 /// Jacobian `dX_i/dxi_j` \[m\] of the map from the reference element, row `i`, column `j`. In the plane the third
 /// coordinate is ignored and its row and column are those of the identity.
-pub fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> Matrix3<f64>
+pub(crate) fn jacobian<E, const N: usize>(points: &[[f64; 3]; N], xi: &[f64; 3]) -> Matrix3<f64>
 where
     E: Element<Nodal = [f64; N]>,
 {
@@ -255,6 +266,7 @@ where
 /// plane\]. In the plane the third row is zero.
 ///
 /// The gradients are meaningless unless the determinant is positive.
+#[must_use]
 pub fn reference_gradients<E, const N: usize>(
     points: &[[f64; 3]; N],
     xi: &[f64; 3],

@@ -1,11 +1,11 @@
-//! Deformation at a point: `F`, `E`, and the papers' strain-displacement matrices; `C` and the stresses are `hyperelastic`'s.
+//! Deformation at a point: `F`, and the papers' strain-displacement matrices; `C` and the stresses are those of
+//! `hyperelastic`.
 //!
 //! The element kernels work with `F` directly; [`linear_strain_matrix`] and [`nonlinear_strain_matrix`] are
 //! the papers' `B_L` and `B_NL(u)` \[Feng2007, eq. 25, 26\], the reference that the kernels are tested against.
 //! Symmetric tensors are stored as 11 22 33 12 13 23.
 //! Nodal values are arrays with the node as the last index, which is the vector lane of the kernels.
 
-use hyperelastic::Symmetric;
 use hyperelastic::tensor::COMPONENTS;
 use nalgebra::{Matrix3, SMatrix};
 
@@ -13,6 +13,7 @@ use nalgebra::{Matrix3, SMatrix};
 ///
 /// `u` are nodal displacements \[m\] stored `[i][a]`, `gradients` are `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
 #[inline(always)]
+#[must_use]
 pub fn deformation_gradient<const N: usize>(
     u: &[[f64; N]; 3],
     gradients: &[[f64; N]; 3],
@@ -39,17 +40,11 @@ pub(crate) fn deformation_rows<const N: usize>(
     f
 }
 
-/// Green-Lagrange strain `E = (H + H^T + H^T H) / 2` \[-\] from the displacement gradient `H = F - I`, without
-/// cancellation for small strains.
-pub fn green_lagrange(h: &Matrix3<f64>) -> Symmetric {
-    let entry = |(i, j)| 0.5 * (h[(i, j)] + h[(j, i)] + h.column(i).dot(&h.column(j)));
-    Symmetric::from(COMPONENTS.map(entry))
-}
-
 /// `B_L` \[1/m\] \[Feng2007, eq. 25\]: strain linear in the nodal displacements.
 ///
-/// One matrix for each node, whose column `i` holds the six strains, with engineering shear, of its displacement along `i`.
-/// `gradients` are `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
+/// One matrix for each node, whose column `i` holds the six strains, with engineering shear, of its displacement along
+/// `i`. `gradients` are `dN_a/dX_J` \[1/m\] stored `\[J\][a]`.
+#[must_use]
 pub fn linear_strain_matrix<const N: usize>(gradients: &[[f64; N]; 3]) -> [SMatrix<f64, 6, 3>; N] {
     strain_matrix(&Matrix3::identity(), gradients)
 }
@@ -58,6 +53,7 @@ pub fn linear_strain_matrix<const N: usize>(gradients: &[[f64; N]; 3]) -> [SMatr
 /// the Green-Lagrange strain and `(B_L + B_NL(u)) du` its change \[Feng2007, eq. 26\].
 ///
 /// Same layout as [`linear_strain_matrix`].
+#[must_use]
 pub fn nonlinear_strain_matrix<const N: usize>(
     h: &Matrix3<f64>,
     gradients: &[[f64; N]; 3],
@@ -86,8 +82,8 @@ fn strain_matrix<const N: usize>(
 mod tests {
     use super::*;
     use crate::element::{Element, Hex8, jacobian, reference_gradients};
-    use hyperelastic::right_cauchy_green;
     use hyperelastic::tensor::{IDENTITY, engineering};
+    use hyperelastic::{Symmetric, right_cauchy_green};
     use nalgebra::Vector3;
     use proptest::prelude::*;
 
@@ -110,6 +106,12 @@ mod tests {
 
     fn displacement_gradient(u: &Nodal, gradients: &Nodal) -> Matrix3<f64> {
         deformation_gradient(u, gradients) - Matrix3::identity()
+    }
+
+    /// `E = (H + H^T + H^T H) / 2` from `H = F - I`, without cancellation for small strains.
+    fn green_lagrange(h: &Matrix3<f64>) -> Symmetric {
+        let entry = |(i, j)| 0.5 * (h[(i, j)] + h[(j, i)] + h.column(i).dot(&h.column(j)));
+        Symmetric::from(COMPONENTS.map(entry))
     }
 
     /// With engineering shear, as the matrices give it.

@@ -12,22 +12,26 @@
 //! Unknowns are displacements \[m\], stored flat: component `i` of node `a` is entry `dim * a + i`.
 //! Second-order symmetric tensors are stored as 11 22 33 12 13 23.
 
-pub mod element;
-pub mod kinematics;
-pub mod quadrature;
-
 #[cfg(any(test, feature = "conformance"))]
 pub mod conformance;
+
+/// The example of the README is a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 mod adjacency;
 mod block;
 mod constraint;
+mod element;
 mod error;
+mod kinematics;
 mod mass;
 mod mesh;
 mod motion;
 mod parallel;
 mod pattern;
+mod quadrature;
 mod solid;
 mod surface;
 mod symmetry;
@@ -40,23 +44,22 @@ pub use block::{
 };
 pub use constraint::{DeadTraction, Dirichlet, Gravity};
 pub use element::{
-    CellKind, Element, ElementVisitor, Facet, FacetKind, Hex8, Hex27, Quad4, Quad9, Tet4, Tet10,
-    Tri3, Tri6,
+    CellKind, Element, Facet, FacetKind, Hex8, Hex27, Nodal, Quad4, Quad9, Tet4, Tet10, Tri3, Tri6,
+    corner_points, reference_gradients,
 };
 pub use error::FeError;
+pub use hyperelastic::ROUND_OFF;
+pub use kinematics::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
 pub use mass::MassMatrix;
 #[cfg(feature = "serde")]
 pub use mesh::text;
 pub use mesh::{
     AnnulusMesh, BoxMesh, CellBlock, DiscMesh, GridAxis, GridMesh, GridPiece, HalfBallMesh,
-    HalfDiscMesh, Mesh, MeshError, Pole, QuarterDiscMesh, RectangleMesh,
+    HalfDiscMesh, Mesh, MeshError, Pole, QuarterDiscMesh, RectangleMesh, ValidMesh,
 };
 pub use motion::{Interpolation, Motion, Rotation, Table};
 pub use pattern::{SymmetricPattern, node_adjacency};
+pub use quadrature::QuadraturePoint;
 pub use solid::{ElementWorkspace, Solid};
 pub use surface::{Surface, current_positions};
 pub use symmetry::Symmetry;
-
-/// Relative difference \[-\] below which two numbers are the same: 64 units in the last place. A sum of a few dozen terms,
-/// or a chain of as many operations, stays within it; what differs by more differs for another reason than rounding.
-pub const ROUND_OFF: f64 = 64.0 * f64::EPSILON;

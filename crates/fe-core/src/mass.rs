@@ -4,7 +4,8 @@ use crate::adjacency::Adjacency;
 use crate::block::Block;
 use crate::parallel::for_each_row;
 
-/// A symmetric mass matrix \[kg; kg/m in plane strain\]: one number for each pair of nodes, the same for each component.
+/// A symmetric mass matrix \[kg; kg/m in plane strain\]: one number for each pair of nodes, the same for each
+/// component.
 ///
 /// Stored by rows, both triangles, columns sorted.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,6 +63,7 @@ impl MassMatrix {
     }
 
     /// Diagonal matrix from the mass of each node \[kg\].
+    #[must_use]
     pub fn diagonal(dim: usize, node_masses: Vec<f64>) -> MassMatrix {
         let nodes = node_masses.len();
         MassMatrix {
@@ -112,6 +114,7 @@ impl MassMatrix {
     }
 
     /// `v . M v`: twice the kinetic energy \[J\] of the velocity `v` \[m/s\].
+    #[must_use]
     pub fn quadratic(&self, v: &[f64]) -> f64 {
         let mut product = vec![0.0; v.len()];
         self.times(v, &mut product);
@@ -119,11 +122,13 @@ impl MassMatrix {
     }
 
     /// Total mass \[kg\].
+    #[must_use]
     pub fn total(&self) -> f64 {
         self.row_sums().iter().sum()
     }
 
     /// Mass that belongs to each node \[kg\]: the row sums.
+    #[must_use]
     pub fn row_sums(&self) -> Vec<f64> {
         let row = |pair: &[usize]| self.values[pair[0]..pair[1]].iter().sum();
         self.offsets.windows(2).map(row).collect()

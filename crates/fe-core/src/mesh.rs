@@ -7,6 +7,7 @@ mod quadratic;
 pub mod text;
 
 use std::collections::BTreeMap;
+use std::ops::Deref;
 
 use nalgebra::Vector3;
 
@@ -21,6 +22,7 @@ use crate::symmetry::Symmetry;
 
 /// Cells of one kind that share a material.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct CellBlock {
     /// Name, used in errors and output.
     pub name: String,
@@ -31,6 +33,16 @@ pub struct CellBlock {
 }
 
 impl CellBlock {
+    /// Cells by their nodes, cell after cell, in VTK order.
+    #[must_use]
+    pub fn new(name: &str, kind: CellKind, cells: Vec<u32>) -> CellBlock {
+        CellBlock {
+            name: name.to_owned(),
+            kind,
+            cells,
+        }
+    }
+
     /// Number of cells.
     pub fn cell_count(&self) -> usize {
         self.cells.len() / self.kind.node_count()
@@ -42,8 +54,9 @@ impl CellBlock {
     }
 }
 
-/// Points, cells and named sets. Everything public: a mesh is plain data until it is validated.
+/// Points, cells and named sets. Everything public: a mesh is plain data until it is [`Mesh::validated`].
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Mesh {
     /// Unknowns per node: 3 in space, 2 in the plane (then the third coordinate is ignored).
     pub dim: usize,
@@ -59,7 +72,53 @@ pub struct Mesh {
     pub facet_sets: BTreeMap<String, Vec<Facet>>,
 }
 
+/// A mesh that satisfies [`Mesh::validate`], and can be read only: what elements and solids are made from.
+///
+/// ```
+/// use fe_core::BoxMesh;
+/// let mut mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [2; 3]).generate("cube")?;
+/// mesh.points[0].x = -0.1;
+/// let mesh = mesh.validated()?;
+/// assert_eq!(mesh.points.len(), 27);
+///
+/// // To change it, take the mesh out, and have it checked again.
+/// let mut mesh = mesh.into_inner();
+/// mesh.points[0].x = 1.0;
+/// assert!(mesh.validated().is_err());
+/// # Ok::<(), fe_core::MeshError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ValidMesh(Mesh);
+
+impl ValidMesh {
+    /// The mesh, to be changed.
+    #[must_use]
+    pub fn into_inner(self) -> Mesh {
+        self.0
+    }
+}
+
+impl Deref for ValidMesh {
+    type Target = Mesh;
+
+    fn deref(&self) -> &Mesh {
+        &self.0
+    }
+}
+
 impl Mesh {
+    /// A mesh of these points \[m\] and blocks, without sets.
+    #[must_use]
+    pub fn new(symmetry: Symmetry, points: Vec<Vector3<f64>>, blocks: Vec<CellBlock>) -> Mesh {
+        Mesh {
+            dim: symmetry.dim(),
+            symmetry,
+            points,
+            blocks,
+            ..Mesh::default()
+        }
+    }
+
     /// Adds another mesh with its own nodes. Its set `name` becomes `prefix.name`; blocks keep their names.
     /// An empty `prefix` keeps the names of sets too. A set that exists already is extended. An empty mesh takes the
     /// dimension and the symmetry of the other.
@@ -115,6 +174,7 @@ impl Mesh {
     }
 
     /// All facets that belong to one cell only, outward, in the order of blocks and cells.
+    #[must_use]
     pub fn boundary_facets(&self) -> Vec<Facet> {
         let mut all = Vec::new();
         for block in &self.blocks {
@@ -133,6 +193,15 @@ impl Mesh {
             .collect();
         single.sort_unstable_by_key(|(order, _)| *order);
         single.into_iter().map(|(_, facet)| facet).collect()
+    }
+
+    /// The mesh, checked: the only way to a [`ValidMesh`].
+    ///
+    /// # Errors
+    /// The first defect that [`Mesh::validate`] finds.
+    pub fn validated(self) -> Result<ValidMesh, MeshError> {
+        self.validate()?;
+        Ok(ValidMesh(self))
     }
 
     /// Checks all that the assembly relies on: finite points, indices in range, positive Jacobians at the
@@ -155,12 +224,6 @@ impl Mesh {
         }
         self.validate_node_sets()?;
         self.validate_facet_sets()
-    }
-
-    /// The part of [`Mesh::validate`] that the elements of one block rely on.
-    pub(crate) fn validate_block(&self, block: &CellBlock) -> Result<(), MeshError> {
-        self.validate_points()?;
-        self.validate_cells(block)
     }
 
     fn validate_points(&self) -> Result<(), MeshError> {

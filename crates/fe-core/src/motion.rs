@@ -51,6 +51,7 @@ impl Table {
     }
 
     /// The same value at all times. A value that is not finite is caught by what uses it.
+    #[must_use]
     pub fn constant(value: f64) -> Table {
         Table {
             times: vec![0.0],
@@ -60,11 +61,13 @@ impl Table {
     }
 
     /// Zero at all times.
+    #[must_use]
     pub fn zero() -> Table {
         Table::constant(0.0)
     }
 
     /// Value at time `t` \[s\].
+    #[must_use]
     pub fn value(&self, t: f64) -> f64 {
         let Some((k, s)) = self.locate(t) else {
             let end = if t < self.times[0] {
@@ -82,6 +85,7 @@ impl Table {
     }
 
     /// Time derivative at `t` \[1/s times the unit of the values\]; at an entry, the rate just after it.
+    #[must_use]
     pub fn rate(&self, t: f64) -> f64 {
         let Some((k, s)) = self.locate(t) else {
             return 0.0;
@@ -99,11 +103,12 @@ impl Table {
     }
 
     /// True if the value never changes.
-    pub fn is_constant(&self) -> bool {
+    fn is_constant(&self) -> bool {
         self.values.iter().all(|v| *v == self.values[0])
     }
 
     /// True if the value is always zero.
+    #[must_use]
     pub fn is_zero(&self) -> bool {
         self.values.iter().all(|v| *v == 0.0)
     }
@@ -189,6 +194,7 @@ impl Rotation {
 
 /// Motion of a rigid body or a driven boundary: rotate about the reference axis, then translate.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Motion {
     /// Translation along x, y, z \[m\].
     pub translation: [Table; 3],
@@ -204,6 +210,7 @@ impl Default for Motion {
 
 impl Motion {
     /// No motion at all.
+    #[must_use]
     pub fn still() -> Motion {
         Motion {
             translation: std::array::from_fn(|_| Table::zero()),
@@ -212,6 +219,7 @@ impl Motion {
     }
 
     /// Translation only \[m\].
+    #[must_use]
     pub fn translation(translation: [Table; 3]) -> Motion {
         Motion {
             translation,
@@ -219,7 +227,15 @@ impl Motion {
         }
     }
 
+    /// With a rotation, which comes before the translation.
+    #[must_use]
+    pub fn with_rotation(mut self, rotation: Rotation) -> Motion {
+        self.rotation = Some(rotation);
+        self
+    }
+
     /// Displacement \[m\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference.
+    #[must_use]
     pub fn displacement(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
         let moved = self.translation_at(t);
         self.rotation.as_ref().map_or(moved, |rotation| {
@@ -230,6 +246,7 @@ impl Motion {
 
     /// Velocity \[m/s\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference. Where a
     /// table has a kink, the velocity just after it.
+    #[must_use]
     pub fn velocity(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
         let sliding = Vector3::from_fn(|i, _| self.translation[i].rate(t));
         self.rotation.as_ref().map_or(sliding, |rotation| {
@@ -240,12 +257,14 @@ impl Motion {
     }
 
     /// Position \[m\] at time `t` \[s\] of the material point that is at `x_ref` \[m\] in the reference.
+    #[must_use]
     pub fn position(&self, x_ref: Vector3<f64>, t: f64) -> Vector3<f64> {
         x_ref + self.displacement(x_ref, t)
     }
 
     /// Reference position \[m\] of the material point that is at `x` \[m\] at time `t` \[s\]: undoes
     /// [`Motion::position`].
+    #[must_use]
     pub fn pull_back(&self, x: Vector3<f64>, t: f64) -> Vector3<f64> {
         let back = x - self.translation_at(t);
         self.rotation.as_ref().map_or(back, |rotation| {
@@ -255,6 +274,7 @@ impl Motion {
     }
 
     /// A direction fixed to the moving body (normal, axis) at time `t` \[s\].
+    #[must_use]
     pub fn rotate(&self, direction: Vector3<f64>, t: f64) -> Vector3<f64> {
         self.rotation.as_ref().map_or(direction, |rotation| {
             direction + rotation.change(&direction, rotation.angle.value(t))
@@ -262,12 +282,14 @@ impl Motion {
     }
 
     /// True if nothing moves at any time: displacement and velocity are always zero.
+    #[must_use]
     pub fn is_still(&self) -> bool {
         let turns = self.rotation.as_ref().is_some_and(|r| !r.angle.is_zero());
         !turns && self.translation.iter().all(Table::is_zero)
     }
 
     /// Times \[s\] at which some rate may jump, sorted, without repeats.
+    #[must_use]
     pub fn breakpoints(&self) -> Vec<f64> {
         let angle = self.rotation.as_ref().map(|rotation| &rotation.angle);
         let tables = self.translation.iter().chain(angle);

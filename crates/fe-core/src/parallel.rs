@@ -9,6 +9,9 @@ pub(crate) const ELEMENTS_PER_TASK: usize = 32;
 /// Rows (nodes, columns) per task, for loops that do little work per row.
 pub(crate) const ROWS_PER_TASK: usize = 512;
 
+/// Nonzeros of a matrix per task: a row has some dozens.
+pub(crate) const NONZEROS_PER_TASK: usize = 16 * ROWS_PER_TASK;
+
 /// True if a loop is better run here than handed to threads.
 pub(crate) fn sequential(count: usize, per_task: usize) -> bool {
     count <= per_task || rayon::current_num_threads() == 1

@@ -6,7 +6,7 @@ use crate::adjacency::Adjacency;
 use crate::block::tangent_index;
 use crate::error::{FeError, check_length};
 use crate::mass::MassMatrix;
-use crate::parallel::{ROWS_PER_TASK, sequential};
+use crate::parallel::{NONZEROS_PER_TASK, ROWS_PER_TASK, sequential};
 use crate::solid::{ElementWorkspace, Solid};
 
 /// Marks a degree of freedom that is not an unknown of the system, and a nonzero without mass.
@@ -14,6 +14,7 @@ const NONE: u32 = u32::MAX;
 
 /// Graph of the nodes, without loops: offsets (`nodes + 1` long) and neighbours, sorted. Two nodes are
 /// neighbours if an element has both.
+#[must_use]
 pub fn node_adjacency(solid: &Solid) -> (Vec<usize>, Vec<u32>) {
     let with_loops = solid.adjacency();
     let mut offsets = vec![0];
@@ -150,12 +151,11 @@ impl SymmetricPattern {
     /// Runs `part(first, slice)` over slices of the values, in parallel if it pays.
     fn in_parts(&self, values: &mut [f64], part: impl Fn(usize, &mut [f64]) + Sync) {
         let values = &mut values[..self.row_indices.len()];
-        let length = 16 * ROWS_PER_TASK;
-        if sequential(values.len(), length) {
+        if sequential(values.len(), NONZEROS_PER_TASK) {
             part(0, values);
         } else {
-            let parts = values.par_chunks_mut(length).enumerate();
-            parts.for_each(|(task, slice)| part(task * length, slice));
+            let parts = values.par_chunks_mut(NONZEROS_PER_TASK).enumerate();
+            parts.for_each(|(task, slice)| part(task * NONZEROS_PER_TASK, slice));
         }
     }
 

@@ -2,6 +2,7 @@
 
 /// A point of a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct QuadraturePoint {
     /// Position in the reference element \[-\]; the third coordinate is zero in the plane.
     pub xi: [f64; 3],
@@ -9,62 +10,63 @@ pub struct QuadraturePoint {
     pub weight: f64,
 }
 
-/// `1 / sqrt(3)`: the two-point Gauss rule on \[-1, 1\].
-pub const GAUSS_2: f64 = 0.577_350_269_189_625_8;
-/// `sqrt(3 / 5)`: the outer points of the three-point Gauss rule on \[-1, 1\].
-pub const GAUSS_3: f64 = 0.774_596_669_241_483_4;
+impl QuadraturePoint {
+    /// A point at `xi` \[-\] with a weight \[-\].
+    #[must_use]
+    pub const fn new(xi: [f64; 3], weight: f64) -> QuadraturePoint {
+        QuadraturePoint { xi, weight }
+    }
+}
 
-const ORIGIN: QuadraturePoint = QuadraturePoint {
-    xi: [0.0; 3],
-    weight: 0.0,
-};
+/// `1 / sqrt(3)`: the two-point Gauss rule on \[-1, 1\].
+pub(crate) const GAUSS_2: f64 = 0.577_350_269_189_625_8;
+/// `sqrt(3 / 5)`: the outer points of the three-point Gauss rule on \[-1, 1\].
+pub(crate) const GAUSS_3: f64 = 0.774_596_669_241_483_4;
+
+const ORIGIN: QuadraturePoint = QuadraturePoint::new([0.0; 3], 0.0);
 
 /// Two by two by two Gauss points on \[-1, 1\]^3, exact to degree 3 in each direction; point `q` lies next
 /// to node `q` of the hexahedron.
-pub static HEXAHEDRON_8: [QuadraturePoint; 8] = hexahedron_8();
+pub(crate) static HEXAHEDRON_8: [QuadraturePoint; 8] = hexahedron_8();
 
 /// Three by three by three Gauss points on \[-1, 1\]^3, exact to degree 5 in each direction.
-pub static HEXAHEDRON_27: [QuadraturePoint; 27] = hexahedron_27();
+pub(crate) static HEXAHEDRON_27: [QuadraturePoint; 27] = hexahedron_27();
 
 /// Four by four by four Gauss points on \[-1, 1\]^3, exact to degree 7 in each direction.
-pub static HEXAHEDRON_64: [QuadraturePoint; 64] = hexahedron_64();
+pub(crate) static HEXAHEDRON_64: [QuadraturePoint; 64] = hexahedron_64();
 
 /// Centroid of the reference tetrahedron (volume 1/6), exact to degree 1.
-pub static TETRAHEDRON_1: [QuadraturePoint; 1] = [QuadraturePoint {
-    xi: [0.25; 3],
-    weight: 1.0 / 6.0,
-}];
+pub(crate) static TETRAHEDRON_1: [QuadraturePoint; 1] =
+    [QuadraturePoint::new([0.25; 3], 1.0 / 6.0)];
 
 /// Four points in the reference tetrahedron (volume 1/6), exact to degree 2.
-pub static TETRAHEDRON_4: [QuadraturePoint; 4] = tetrahedron_4();
+pub(crate) static TETRAHEDRON_4: [QuadraturePoint; 4] = tetrahedron_4();
 
 /// Eight points in the reference tetrahedron (volume 1/6), exact to degree 3.
-pub static TETRAHEDRON_8: [QuadraturePoint; 8] = tetrahedron_8();
+pub(crate) static TETRAHEDRON_8: [QuadraturePoint; 8] = tetrahedron_8();
 
 /// Fourteen points in the reference tetrahedron (volume 1/6), exact to degree 5.
-pub static TETRAHEDRON_14: [QuadraturePoint; 14] = tetrahedron_14();
+pub(crate) static TETRAHEDRON_14: [QuadraturePoint; 14] = tetrahedron_14();
 
 /// Two by two Gauss points on \[-1, 1\]^2, exact to degree 3 in each direction; point `q` lies next to node
 /// `q` of the quadrilateral.
-pub static QUADRILATERAL_4: [QuadraturePoint; 4] = quadrilateral_4();
+pub(crate) static QUADRILATERAL_4: [QuadraturePoint; 4] = quadrilateral_4();
 
 /// Three by three Gauss points on \[-1, 1\]^2, exact to degree 5 in each direction.
-pub static QUADRILATERAL_9: [QuadraturePoint; 9] = quadrilateral_9();
+pub(crate) static QUADRILATERAL_9: [QuadraturePoint; 9] = quadrilateral_9();
 
 /// Four by four Gauss points on \[-1, 1\]^2, exact to degree 7 in each direction.
-pub static QUADRILATERAL_16: [QuadraturePoint; 16] = quadrilateral_16();
+pub(crate) static QUADRILATERAL_16: [QuadraturePoint; 16] = quadrilateral_16();
 
 /// Centroid of the reference triangle (area 1/2), exact to degree 1.
-pub static TRIANGLE_1: [QuadraturePoint; 1] = [QuadraturePoint {
-    xi: [1.0 / 3.0, 1.0 / 3.0, 0.0],
-    weight: 0.5,
-}];
+pub(crate) static TRIANGLE_1: [QuadraturePoint; 1] =
+    [QuadraturePoint::new([1.0 / 3.0, 1.0 / 3.0, 0.0], 0.5)];
 
 /// Six points in the reference triangle (area 1/2), exact to degree 4.
-pub static TRIANGLE_6: [QuadraturePoint; 6] = triangle_6();
+pub(crate) static TRIANGLE_6: [QuadraturePoint; 6] = triangle_6();
 
 /// Seven points in the reference triangle (area 1/2), exact to degree 5.
-pub static TRIANGLE_7: [QuadraturePoint; 7] = triangle_7();
+pub(crate) static TRIANGLE_7: [QuadraturePoint; 7] = triangle_7();
 
 /// Points and weights of the four-point Gauss rule on \[-1, 1\].
 const GAUSS_4: [[f64; 4]; 2] = [

@@ -4,13 +4,13 @@ use crate::adjacency::Adjacency;
 use crate::block::{Block, tangent_index, tangent_len};
 use crate::error::{FeError, check_length};
 use crate::mass::MassMatrix;
-use crate::mesh::{Mesh, MeshError, check_symmetry};
+use crate::mesh::{Mesh, MeshError, ValidMesh, check_symmetry};
 use crate::parallel::for_each_row;
 
 /// Deformable bodies: a mesh, its blocks, and the maps from elements to nodes. Immutable.
 #[derive(Debug)]
 pub struct Solid {
-    mesh: Mesh,
+    mesh: ValidMesh,
     blocks: Vec<Box<dyn Block>>,
     ranges: Vec<BlockRange>,
     slots: NodeSlots,
@@ -50,14 +50,13 @@ impl ElementWorkspace {
 }
 
 impl Solid {
-    /// Checks mesh and blocks, and computes the gather maps.
+    /// Checks that mesh and blocks go together, and computes the gather maps.
     ///
     /// # Errors
-    /// [`FeError::Mesh`] for an invalid mesh or a block of another symmetry than the mesh,
-    /// [`FeError::Index`] if a block refers to a node that does not exist, or a node has no block,
+    /// [`FeError::Mesh`] for a block of another symmetry than the mesh, or a node without block,
+    /// [`FeError::Index`] if a block refers to a node that does not exist,
     /// [`FeError::TooLarge`] beyond 32-bit indices.
-    pub fn new(mesh: Mesh, blocks: Vec<Box<dyn Block>>) -> Result<Solid, FeError> {
-        mesh.validate()?;
+    pub fn new(mesh: ValidMesh, blocks: Vec<Box<dyn Block>>) -> Result<Solid, FeError> {
         let nodes = mesh.points.len();
         for block in &blocks {
             check_symmetry(mesh.symmetry, block.symmetry())?;
@@ -120,6 +119,7 @@ impl Solid {
     }
 
     /// Buffers for this solid; those of the tangents are allocated when they are first needed.
+    #[must_use]
     pub fn workspace(&self) -> ElementWorkspace {
         ElementWorkspace {
             forces: vec![0.0; self.dim() * self.slots.slots.len()],
@@ -202,12 +202,14 @@ impl Solid {
     }
 
     /// Mass matrix that belongs to the shape functions \[kg\].
+    #[must_use]
     pub fn consistent_mass(&self) -> MassMatrix {
         MassMatrix::consistent(self.dim(), self.adjacency(), &self.blocks)
     }
 
     /// Diagonal mass matrix \[kg\], positive: the row sums of the consistent one; elements of degree 2 share their mass
     /// in the proportions of its diagonal.
+    #[must_use]
     pub fn lumped_mass(&self) -> MassMatrix {
         MassMatrix::lumped(self.dim(), self.node_count(), &self.blocks)
     }

@@ -12,8 +12,8 @@ use crate::mesh::Mesh;
 /// A part of the boundary of one or more bodies.
 ///
 /// Quadratic faces are cut between their nodes into facets of degree 1, which stand for them wherever a place or a
-/// normal on the surface is asked for: a curved face is then off by the square of the size of a facet, its nodes are not.
-/// Areas are those of the faces themselves.
+/// normal on the surface is asked for: a curved face is then off by the square of the size of a facet, its nodes are
+/// not. Areas are those of the faces themselves.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surface {
     /// Facets of degree 1, outward.
@@ -66,6 +66,7 @@ impl Surface {
     }
 
     /// Surface index of a node, if it belongs to the surface.
+    #[must_use]
     pub fn index_of(&self, node: u32) -> Option<usize> {
         self.nodes.binary_search(&node).ok()
     }
@@ -85,6 +86,7 @@ impl Surface {
     /// quadratic triangles, and nodes on the axis at the end of a quadratic edge, get zero or nearly so, also negative.
     ///
     /// `mesh` is the whole mesh, of which only points and symmetry matter.
+    #[must_use]
     pub fn shape_integrals(&self, mesh: &Mesh) -> Vec<f64> {
         self.sum_shares(mesh, |shares| shares)
     }
@@ -92,6 +94,7 @@ impl Surface {
     /// Area that belongs to each node, never negative, per surface index \[m^2\]: [`Surface::shape_integrals`], in
     /// which no face counts for a node that has less than 1 % of its integral; the other nodes of the face get that.
     /// What acts per area acts on nodes with an area only.
+    #[must_use]
     pub fn tributary_areas(&self, mesh: &Mesh) -> Vec<f64> {
         self.sum_shares(mesh, shares::usable)
     }
@@ -112,6 +115,7 @@ impl Surface {
     ///
     /// `positions` are current coordinates \[m\] of the whole mesh, flat, `dim * node + component`. A node
     /// whose facets cancel or have no area gets a zero vector.
+    #[must_use]
     pub fn vertex_normals(&self, positions: &[f64]) -> Vec<Vector3<f64>> {
         let mut normals = vec![Vector3::zeros(); self.nodes.len()];
         for (facet, corners) in self.facets.iter().zip(&self.corners) {

@@ -35,6 +35,7 @@ fn block<M: Material>(kind: CellKind, material: M) -> (Box<dyn Block>, Vec<f64>)
         ]
     };
     let u = mesh.points.iter().flat_map(wave).collect();
+    let mesh = mesh.validated().unwrap();
     (solid_block(&mesh, 0, material, 1.0).unwrap(), u)
 }
 
@@ -50,6 +51,7 @@ fn plane_block<M: Material>(
     mesh.symmetry = symmetry;
     let wave = |x: &Vector3<f64>| [0.05 * x[0] * (x[1] * 3.0).sin(), 0.04 * (x[0] * 2.0).cos()];
     let u = mesh.points.iter().flat_map(wave).collect();
+    let mesh = mesh.validated().unwrap();
     (solid_block(&mesh, 0, material, 1.0).unwrap(), u)
 }
 
@@ -139,6 +141,7 @@ fn assembly() {
         let mesh = BoxMesh::uniform([0.0; 3], [0.01, 0.01, 0.003], [20, 20, 6])
             .generate("box")
             .unwrap();
+        let mesh = mesh.validated().unwrap();
         let block = solid_block(&mesh, 0, BlatzKo::new(1.0).unwrap(), 1.0).unwrap();
         let solid = Solid::new(mesh, vec![block]).unwrap();
         let n = solid.dof_count();

@@ -10,9 +10,9 @@ use crate::tensor::{self, Symmetric, Tangent};
 
 /// `W = G/2 (I_2/I_3 + 2 sqrt(I_3) - 5)` \[Hu2022, eq. 37\], `S = G (J C^-1 - C^-2)` \[Hu2022, eq. 39\].
 ///
-/// `D = G [J C^-1 (x) C^-1 - 2J C^-1 (.) C^-1 + 2 (C^-1 (.) C^-2 + C^-2 (.) C^-1)]`, which the paper does not give.
-/// At `F = I` it is Hooke's law with `nu = 1/4`, `E = 5G/2`. The energy grows without bound as matter collapses.
-/// A bar in tension softens: the nominal stress `G (l^(-1/2) - l^-3)` has its maximum at the stretch `l = 6^(2/5) = 2.05`.
+/// `D = G [J C^-1 (x) C^-1 - 2J C^-1 (.) C^-1 + 2 (C^-1 (.) C^-2 + C^-2 (.) C^-1)]`, which the paper does not give. At
+/// `F = I` it is Hooke's law with `nu = 1/4`, `E = 5G/2`. The energy grows without bound as matter collapses. A bar in
+/// tension softens: the nominal stress `G (l^(-1/2) - l^-3)` has its maximum at the stretch `l = 6^(2/5) = 2.05`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BlatzKo {
     elastic: ElasticConstants,

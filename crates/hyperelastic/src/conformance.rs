@@ -8,8 +8,9 @@
 //! conformance::check(&law, &conformance::Options::default())?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-//! Add the law's closed forms with [`check_homogeneous`], and drive [`check_state`] from a property test to search where
-//! the fixed states of [`check`] do not look. All of it is deterministic, and nothing panics: a failure is a [`Violation`].
+//! Add the law's closed forms with [`check_homogeneous`], and drive [`check_state`] from a property test to search
+//! where the fixed states of [`check`] do not look. All of it is deterministic, and nothing panics: a failure is a
+//! [`Violation`].
 
 mod derivatives;
 mod probe;
@@ -18,6 +19,7 @@ mod violation;
 
 use nalgebra::Matrix3;
 
+use crate::ROUND_OFF;
 use crate::deformation::{cauchy, first_piola, right_cauchy_green};
 use crate::material::Material;
 use crate::tensor::{self, Symmetric};
@@ -42,12 +44,13 @@ pub struct Options {
     pub stretches: [f64; 2],
     /// Whether `W(Q C Q^T) = W(C)`, and Hooke's law with two moduli at the reference, are demanded.
     pub isotropic: bool,
-    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated states \[-\].
+    /// Allowed relative difference of what agrees up to round-off: hand-written and dual-number derivatives, rotated
+    /// states \[-\].
     pub tolerance: f64,
     /// Allowed relative difference from central differences \[-\].
     pub difference_tolerance: f64,
-    /// Allowed `|D_ij - D_ji|`, relative to the largest component of `S` and `D` \[-\]: the round-off of some tens of terms
-    /// that are summed in different orders, 64 units of round-off.
+    /// Allowed `|D_ij - D_ji|`, relative to the largest component of `S` and `D` \[-\]: the round-off of some tens of
+    /// terms that are summed in different orders, [`ROUND_OFF`].
     pub symmetry_tolerance: f64,
 }
 
@@ -103,13 +106,14 @@ impl Default for Options {
             isotropic: true,
             tolerance: 1e-10,
             difference_tolerance: 1e-5,
-            symmetry_tolerance: 64.0 * f64::EPSILON,
+            symmetry_tolerance: ROUND_OFF,
         }
     }
 }
 
 /// Stress known for a homogeneous deformation \[Pa\].
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum ClosedForm {
     /// `P = F S`: force per reference area, `P_ij` on the face with normal `j`.
     FirstPiola(Matrix3<f64>),
@@ -117,10 +121,11 @@ pub enum ClosedForm {
     Cauchy(Symmetric),
 }
 
-/// Allowed energy and stress at the reference, relative to the largest modulus \[-\]: what should be zero is some round-offs.
+/// Allowed energy and stress at the reference, relative to the largest modulus \[-\]: what should be zero is some
+/// round-offs.
 const REFERENCE_TOLERANCE: f64 = 1e-14;
-/// Allowed relative difference from the linear law at a strain of 1e-7 \[-\]: a hundred times the second-order terms of a
-/// law with moderate curvature, a hundredth of what an energy that has lost its digits shows.
+/// Allowed relative difference from the linear law at a strain of 1e-7 \[-\]: a hundred times the second-order terms of
+/// a law with moderate curvature, a hundredth of what an energy that has lost its digits shows.
 const SMALL_STRAIN_TOLERANCE: f64 = 1e-4;
 
 /// Runs the whole battery on a fixed set of states.
@@ -159,7 +164,8 @@ pub fn check_state<M: Material>(
     }
 }
 
-/// Compares with the closed form of a homogeneous deformation `F`, to `tolerance` times the largest component of `S` and `D`.
+/// Compares with the closed form of a homogeneous deformation `F`, to `tolerance` times the largest component of `S`
+/// and `D`.
 ///
 /// # Errors
 /// The first [`Violation`] found.

@@ -16,7 +16,8 @@ pub fn right_cauchy_green(f: &Matrix3<f64>) -> Symmetric {
     Symmetric::from(tensor::COMPONENTS.map(entry))
 }
 
-/// First Piola-Kirchhoff stress `P = F S` \[Pa\]: `P_ij` is the force `i` per reference area on the face with normal `j`.
+/// First Piola-Kirchhoff stress `P = F S` \[Pa\]: `P_ij` is the force `i` per reference area on the face with normal
+/// `j`.
 #[must_use]
 #[inline]
 pub fn first_piola(f: &Matrix3<f64>, s: &Symmetric) -> Matrix3<f64> {

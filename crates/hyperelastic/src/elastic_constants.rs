@@ -143,21 +143,26 @@ impl ElasticConstants {
     }
 
     /// Young's modulus `E` \[Pa\].
+    #[must_use]
     pub fn young_modulus(&self) -> f64 {
         9.0 * self.bulk * self.shear / (3.0 * self.bulk + self.shear)
     }
 
     /// Poisson's ratio `nu`.
+    #[must_use]
     pub fn poisson_ratio(&self) -> f64 {
         self.lame / (3.0 * self.bulk - self.lame)
     }
 
-    /// Modulus of uniaxial strain `M = lambda + 2G` \[Pa\]: pressure waves run at `sqrt(M/rho)`, shear waves at `sqrt(G/rho)`.
+    /// Modulus of uniaxial strain `M = lambda + 2G` \[Pa\]: pressure waves run at `sqrt(M/rho)`, shear waves at
+    /// `sqrt(G/rho)`.
+    #[must_use]
     pub fn p_wave_modulus(&self) -> f64 {
         self.lame + 2.0 * self.shear
     }
 
     /// Modulus of contact with a rigid body `E* = E/(1 - nu^2)` \[Pa\].
+    #[must_use]
     pub fn contact_modulus(&self) -> f64 {
         let nu = self.poisson_ratio();
         self.young_modulus() / (1.0 - nu * nu)

@@ -3,12 +3,19 @@
 /// The law has no energy at this state: the matter is inverted, collapsed, or the state is not a number.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[error("{}; cut the step, or refine the mesh where it happens", self.description())]
+#[non_exhaustive]
 pub struct Inverted {
-    /// `det C = J^2` of the state that was refused; NaN or infinite if `C` was \[-\].
+    /// `det C = J^2` \[-\] of the state that was refused; NaN or infinite if `C` was.
     pub det_c: f64,
 }
 
 impl Inverted {
+    /// The refusal of a state with this `det C` \[-\].
+    #[must_use]
+    pub const fn new(det_c: f64) -> Inverted {
+        Inverted { det_c }
+    }
+
     fn description(&self) -> String {
         let det_c = self.det_c;
         if !det_c.is_finite() {

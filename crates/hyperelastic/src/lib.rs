@@ -1,7 +1,7 @@
 //! Hyperelastic laws: strain energy `W`, stress `S` and tangent `D` from the right Cauchy-Green tensor `C`.
 //!
-//! A law is a pure function of `C = F^T F`, so it is objective by construction, and knows nothing of elements, meshes or time.
-//! Everything is closed-form on `nalgebra`'s matrices of fixed size, which are re-exported as [`nalgebra`].
+//! A law is a pure function of `C = F^T F`, so it is objective by construction, and knows nothing of elements, meshes
+//! or time. Everything is closed-form on `nalgebra`'s matrices of fixed size, which are re-exported as [`nalgebra`].
 //!
 //! | law | energy | parameters | valid |
 //! |---|---|---|---|
@@ -10,14 +10,15 @@
 //! | [`BlatzKo`] | `G/2 (I_2/I_3 + 2J - 5)` \[Hu2022, eq. 37\] | `G` (`nu = 1/4`) | large strain, foams |
 //! | [`NeoHookean`] | `G/2 (I_1 - 3 - 2 ln J) + lambda/2 (ln J)^2` | two moduli, `nu >= 0` | large strain |
 //!
-//! The first two are convex in `E` and not polyconvex: under uniaxial strain their resistance to compression falls below a
-//! stretch of `1/sqrt 3` (near .58 for 3e) and vanishes for flat matter. Meshes compressed so far collapse; the other two laws
-//! resist ever more, and refuse `J <= 0` with [`Inverted`].
+//! The first two are convex in `E` and not polyconvex: under uniaxial strain their resistance to compression falls
+//! below a stretch of `1/sqrt 3` (near .58 for 3e) and vanishes for flat matter. Meshes compressed so far collapse; the
+//! other two laws resist ever more, and refuse `J <= 0` with [`Inverted`].
 //!
 //! # Conventions
-//! SI units; moduli and stresses in \[Pa\], energies in \[J/m^3\] of reference volume. Symmetric tensors are six *tensor* components in the
-//! order 11 22 33 12 13 23, shear not doubled. The tangent `D_ijkl = dS_ij/dE_kl` is a symmetric 6x6 matrix in the
-//! same order, and multiplies engineering shear: `dS = D (dE_11, dE_22, dE_33, 2 dE_12, 2 dE_13, 2 dE_23)`.
+//! SI units; moduli and stresses in \[Pa\], energies in \[J/m^3\] of reference volume. Symmetric tensors are six
+//! *tensor* components in the order 11 22 33 12 13 23, shear not doubled. The tangent `D_ijkl = dS_ij/dE_kl` is a
+//! symmetric 6x6 matrix in the same order, and multiplies engineering shear:
+//! `dS = D (dE_11, dE_22, dE_33, 2 dE_12, 2 dE_13, 2 dE_23)`.
 //!
 //! # Example
 //! ```
@@ -39,7 +40,8 @@
 //! ```
 //!
 //! # Adding a law
-//! One file with an implementation of [`Material`], and a test that calls the battery `conformance::check` (feature `conformance`, off by default).
+//! One file with an implementation of [`Material`], and a test that calls the battery `conformance::check` (feature
+//! `conformance`, off by default).
 
 pub mod tensor;
 
@@ -76,3 +78,8 @@ pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
 pub use stretch::{StretchInvariants, require_finite};
 pub use tensor::{Symmetric, Tangent};
 pub use three_e::ThreeE;
+
+/// Relative difference \[-\] below which two numbers are the same: 64 units in the last place. A sum of a few dozen
+/// terms, or a chain of as many operations, stays within it; what differs by more differs for another reason than
+/// rounding.
+pub const ROUND_OFF: f64 = 64.0 * f64::EPSILON;

@@ -15,10 +15,12 @@ pub struct Response {
     pub energy: f64,
     /// `S = 2 dW/dC`, second Piola-Kirchhoff stress \[Pa\]: tensor components 11 22 33 12 13 23.
     pub stress: Symmetric,
-    /// `D = dS/dE` \[Pa\]: tensor components `D_ijkl`, so that `dS = D (dE_11, dE_22, dE_33, 2 dE_12, 2 dE_13, 2 dE_23)`.
+    /// `D = dS/dE` \[Pa\]: tensor components `D_ijkl`, so that
+    /// `dS = D (dE_11, dE_22, dE_33, 2 dE_12, 2 dE_13, 2 dE_23)`.
     ///
-    /// Symmetric to round-off: `|D_ij - D_ji|` is a few units in the last place of the largest component of `S` and `D`,
-    /// and no more is demanded of a law. Who needs both triangles to hold the same bits symmetrises, or reads one of them.
+    /// Symmetric to round-off: `|D_ij - D_ji|` is a few units in the last place of the largest component of `S` and
+    /// `D`, and no more is demanded of a law. Who needs both triangles to hold the same bits symmetrises, or reads one
+    /// of them.
     pub tangent: Tangent,
 }
 
@@ -41,11 +43,11 @@ impl Response {
 /// A law is a pure function: it never returns NaN, and it has no history.
 ///
 /// # Writing a law
-/// Write `energy` with the operators of [`Real`], and `stress` and `response` from its derivatives by hand.
-/// Then let `conformance::check` compare them. Compute the energy from `C - I` where you can: the
-/// differences of the invariants lose all digits of a small strain (see [`StretchInvariants`](crate::StretchInvariants)).
-/// The tangent has to be symmetric to round-off, not to the last bit: loops over the components will do.
-/// `examples/own_law.rs` is a law of a page.
+/// Write `energy` with the operators of [`Real`], and `stress` and `response` from its derivatives by hand. Then let
+/// `conformance::check` compare them. Compute the energy from `C - I` where you can: the differences of the invariants
+/// lose all digits of a small strain (see [`StretchInvariants`](crate::StretchInvariants)). The tangent has to be
+/// symmetric to round-off, not to the last bit: loops over the components will do. `examples/own_law.rs` is a law of a
+/// page.
 pub trait Material: Clone + Debug + Send + Sync + 'static {
     /// Strain energy `W` per reference volume \[J/m^3\].
     ///

@@ -2,6 +2,7 @@
 
 /// A parameter outside its physical bounds.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ParameterError {
     /// NaN or infinite.
     #[error("{parameter} = {value} is not a finite number")]
@@ -39,6 +40,18 @@ pub enum ParameterError {
         /// Why, and what to try.
         reason: &'static str,
     },
+}
+
+impl ParameterError {
+    /// Name of the parameter; its last word is its letter, as in `shear modulus G`.
+    #[must_use]
+    pub const fn parameter(&self) -> &'static str {
+        match *self {
+            ParameterError::NotFinite { parameter, .. }
+            | ParameterError::OutsideOpen { parameter, .. }
+            | ParameterError::OutsideClosed { parameter, .. } => parameter,
+        }
+    }
 }
 
 pub(crate) fn finite(parameter: &'static str, value: f64) -> Result<f64, ParameterError> {

@@ -9,10 +9,26 @@ const LARGEST_C: f64 = 1e24;
 /// Below this `det C` (`J = 1e-12`), matter is flat. With `LARGEST_C` it keeps every intermediate result finite.
 const SMALLEST_DET_C: f64 = 1e-24;
 
+/// Where `ln det C` is taken from `det C - 1` \[-\]; farther from the reference `det C` itself has the better digits.
+const NEAR_REFERENCE: f64 = 0.5;
+
 /// Refuses what is not finite, for laws that are defined for any finite `C`.
 ///
 /// # Errors
 /// [`Inverted`] if a component is NaN, infinite, or beyond any deformation (1e24).
+///
+/// ```
+/// use hyperelastic::{Inverted, Symmetric, require_finite, tensor};
+///
+/// /// `W/G = E : E`, a law of strain only.
+/// fn energy(c: &Symmetric) -> Result<f64, Inverted> {
+///     require_finite(c)?;
+///     Ok(tensor::norm_squared(&tensor::green_lagrange(c)))
+/// }
+/// assert_eq!(energy(&tensor::IDENTITY)?, 0.0);
+/// assert!(energy(&(tensor::IDENTITY * f64::NAN)).is_err());
+/// # Ok::<(), Inverted>(())
+/// ```
 #[inline]
 pub fn require_finite<T: Real>(c: &Symmetric<T>) -> Result<(), Inverted> {
     let [components] = &c.data.0;
@@ -22,9 +38,7 @@ pub fn require_finite<T: Real>(c: &Symmetric<T>) -> Result<(), Inverted> {
     if within {
         Ok(())
     } else {
-        Err(Inverted {
-            det_c: determinant(c).re(),
-        })
+        Err(Inverted::new(determinant(c).re()))
     }
 }
 
@@ -35,6 +49,7 @@ pub fn require_finite<T: Real>(c: &Symmetric<T>) -> Result<(), Inverted> {
 /// energy-conserving schemes use, is then noise long before. From the invariants of `A = C - I` nothing of first
 /// order in the strain has to cancel: `I_1 = 3 + A_1`, `I_2 = 3 + 2 A_1 + A_2`, `I_3 = 1 + A_1 + A_2 + A_3`.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct StretchInvariants<T> {
     /// `det(C) C^-1`.
     pub cofactors: Symmetric<T>,
@@ -61,7 +76,7 @@ impl<T: Real> StretchInvariants<T> {
         let positive =
             (c[0].re() > 0.0) & (cofactors[2].re() > 0.0) & (det_c.re() >= SMALLEST_DET_C);
         if !(positive & (trace(c).re() <= LARGEST_C)) {
-            return Err(Inverted { det_c: det_c.re() });
+            return Err(Inverted::new(det_c.re()));
         }
         let a = Symmetric::new(c[0] - 1.0, c[1] - 1.0, c[2] - 1.0, c[3], c[4], c[5]);
         let a2 =
@@ -80,10 +95,10 @@ impl<T: Real> StretchInvariants<T> {
 
     /// `ln det C = 2 ln J`, exact to round-off of `C` for small strains.
     #[inline]
+    #[must_use]
     pub fn ln_det_c(&self) -> T {
         let excess = self.excess[0] + self.excess[1] + self.excess[2];
-        // Far from the reference det C itself has the better digits.
-        if excess.re().abs() < 0.5 {
+        if excess.re().abs() < NEAR_REFERENCE {
             excess.ln_1p()
         } else {
             self.det_c.ln()
@@ -92,6 +107,7 @@ impl<T: Real> StretchInvariants<T> {
 
     /// `C^-1`.
     #[inline]
+    #[must_use]
     pub fn inverse(&self) -> Symmetric<T> {
         let scale = self.det_c.recip();
         let [[a, b, c, d, e, f]] = self.cofactors.data.0;

@@ -32,7 +32,7 @@ pub fn to_matrix(a: &Symmetric) -> Matrix3<f64> {
 /// The six components of a matrix that is symmetric; the upper triangle is read.
 #[must_use]
 #[inline]
-pub fn from_matrix(m: &Matrix3<f64>) -> Symmetric {
+pub(crate) fn from_matrix(m: &Matrix3<f64>) -> Symmetric {
     Symmetric::from(COMPONENTS.map(|ij| m[ij]))
 }
 
@@ -107,8 +107,8 @@ pub fn engineering(e: &Symmetric) -> Symmetric {
     Symmetric::new(e[0], e[1], e[2], 2.0 * e[3], 2.0 * e[4], 2.0 * e[5])
 }
 
-/// A tensor given component by component. Loops over arrays become vector instructions everywhere; chains of `nalgebra`'s
-/// operators do not always.
+/// A tensor given component by component. Loops over arrays become vector instructions everywhere; chains of
+/// `nalgebra`'s operators do not always.
 #[inline(always)]
 pub(crate) fn by_component(entry: impl Fn(usize) -> f64) -> Symmetric {
     let mut a = [0.0; 6];
@@ -120,15 +120,17 @@ pub(crate) fn by_component(entry: impl Fn(usize) -> f64) -> Symmetric {
 
 /// `A += s I`.
 #[inline]
-pub fn add_spherical(a: &mut Symmetric, s: f64) {
+pub(crate) fn add_spherical(a: &mut Symmetric, s: f64) {
     a[0] += s;
     a[1] += s;
     a[2] += s;
 }
 
-/// `A (.) B + B (.) A` with `(A (.) B)_ijkl = (A_ik B_jl + A_il B_jk)/2` \[Feng2007, eq. 23\], symmetric to the last bit.
+/// `A (.) B + B (.) A` with `(A (.) B)_ijkl = (A_ik B_jl + A_il B_jk)/2` \[Feng2007, eq. 23\], symmetric to the last
+/// bit.
 ///
-/// It maps a symmetric `X` to `A X B + B X A`: with `A = B = C^-1`, to minus twice the change of `C^-1` when `C` changes by `X`.
+/// It maps a symmetric `X` to `A X B + B X A`: with `A = B = C^-1`, to minus twice the change of `C^-1` when `C`
+/// changes by `X`.
 #[must_use]
 #[inline]
 pub fn symmetric_product(a: &Symmetric, b: &Symmetric) -> Tangent {
@@ -162,7 +164,7 @@ pub fn symmetric_product(a: &Symmetric, b: &Symmetric) -> Tangent {
 /// `I (.) B + B (.) I`: the derivative of `X^2` at `X = B`, with the zeros of `I` known beforehand.
 #[must_use]
 #[inline]
-pub fn derivative_of_square(b: &Symmetric) -> Tangent {
+pub(crate) fn derivative_of_square(b: &Symmetric) -> Tangent {
     let [b11, b22, b33, b12, b13, b23] = (*b).into();
     let (h12, h13, h23) = (0.5 * b12, 0.5 * b13, 0.5 * b23);
     Tangent::from([

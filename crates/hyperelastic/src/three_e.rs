@@ -23,10 +23,11 @@ const SQRT_6: f64 = 2.449_489_742_783_178;
 /// leave out `a3` and halve the terms in `a5`.
 ///
 /// # Validity
-/// Within the bounds of \[Feng2007, eq. 17\] and with `a3 = 0` the energy is convex in `E`. A positive `a3`
-/// couples volume and shear by a term that is not convex by itself, and the bounds do not make up for it at large strains.
-/// Like [`SaintVenantKirchhoff`](crate::SaintVenantKirchhoff), with which it agrees when all `a` are zero, it does not resist the collapse of matter:
-/// compressed in one direction the force falls below a stretch near .58. No `C` is refused but one that is not finite.
+/// Within the bounds of \[Feng2007, eq. 17\] and with `a3 = 0` the energy is convex in `E`. A positive `a3` couples
+/// volume and shear by a term that is not convex by itself, and the bounds do not make up for it at large strains. Like
+/// [`SaintVenantKirchhoff`](crate::SaintVenantKirchhoff), with which it agrees when all `a` are zero, it does not
+/// resist the collapse of matter: compressed in one direction the force falls below a stretch near .58. No `C` is
+/// refused but one that is not finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThreeE {
     elastic: ElasticConstants,

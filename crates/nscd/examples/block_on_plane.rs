@@ -38,7 +38,9 @@ impl Observer for Printer {
 
 fn main() -> Result<(), Box<dyn Error>> {
     // The block: 0.1 m a side, soft rubber.
-    let mesh = BoxMesh::uniform([0.0; 3], [0.1; 3], [4, 4, 4]).generate("block")?;
+    let mesh = BoxMesh::uniform([0.0; 3], [0.1; 3], [4, 4, 4])
+        .generate("block")?
+        .validated()?;
     let base = Surface::new(mesh.facet_set("z_min")?.to_vec())?;
     let area = base.tributary_areas(&mesh);
     let law = NeoHookean::new(ElasticConstants::from_shear_lame(4e5, 1.6e6)?)?;
@@ -46,10 +48,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // Its top is pressed down by 5 mm in one second.
     let down = Table::new(vec![(0.0, 0.0), (1.0, -0.005)], Interpolation::Linear)?;
-    let press = Dirichlet {
-        motion: Motion::translation([Table::zero(), Table::zero(), down]),
-        ..Dirichlet::clamped("top", mesh.node_set("z_max")?.to_vec())
-    };
+    let press = Dirichlet::clamped("top", mesh.node_set("z_max")?.to_vec())
+        .with_motion(Motion::translation([Table::zero(), Table::zero(), down]));
 
     // It stands on a rigid plane.
     let plane = Shape::Plane {

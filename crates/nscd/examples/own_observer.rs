@@ -42,7 +42,9 @@ impl Observer for Curve {
 }
 
 fn cube(scheme: Scheme) -> Result<Model, Box<dyn Error>> {
-    let mesh = BoxMesh::uniform([0.0; 3], [0.1; 3], [3, 3, 3]).generate("cube")?;
+    let mesh = BoxMesh::uniform([0.0; 3], [0.1; 3], [3, 3, 3])
+        .generate("cube")?
+        .validated()?;
     let base = Surface::new(mesh.facet_set("z_min")?.to_vec())?;
     let area = base.tributary_areas(&mesh);
     let law = NeoHookean::new(ElasticConstants::from_shear_lame(4e5, 6e5)?)?;

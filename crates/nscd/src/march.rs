@@ -88,7 +88,7 @@ pub struct Span {
 /// use hyperelastic::{ElasticConstants, NeoHookean};
 ///
 /// // A bar in free flight keeps its energy.
-/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 4.0], [1, 1, 4]).generate("bar")?;
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 4.0], [1, 1, 4]).generate("bar")?.validated()?;
 /// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
 /// let bar = solid_block(&mesh, 0, law, 1000.0)?;
 /// let model = Model::new(Solid::new(mesh, vec![bar])?);

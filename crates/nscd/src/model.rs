@@ -54,7 +54,7 @@ impl Rayleigh {
 /// use hyperelastic::{ElasticConstants, NeoHookean};
 /// use nscd::{Model, Scheme};
 ///
-/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [2, 2, 4]).generate("bar")?;
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [2, 2, 4]).generate("bar")?.validated()?;
 /// let base = Dirichlet::clamped("base", mesh.node_set("z_min")?.to_vec());
 /// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
 /// let block = solid_block(&mesh, 0, law, 1000.0)?;

@@ -45,7 +45,7 @@ const CORRECTIONS: usize = 5;
 /// use nscd::{Model, NoClock, Scheme, Stepper};
 /// use hyperelastic::{ElasticConstants, NeoHookean};
 ///
-/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [1, 1, 2]).generate("bar")?;
+/// let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [1, 1, 2]).generate("bar")?.validated()?;
 /// let base = Dirichlet::clamped("base", mesh.node_set("z_min")?.to_vec());
 /// let law = NeoHookean::new(ElasticConstants::from_shear_lame(2e5, 3e5)?)?;
 /// let bar = solid_block(&mesh, 0, law, 1000.0)?;

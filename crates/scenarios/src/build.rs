@@ -4,7 +4,8 @@ mod mesh;
 
 use contact_bipotential::{Adhesion, Interface, Master, Obstacle};
 use fe_core::{
-    Block, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface, Table,
+    Block, DeadTraction, Dirichlet, FeError, Gravity, Mesh, Motion, Rotation, Solid, Surface,
+    Table, ValidMesh,
 };
 use nalgebra::Vector3;
 use nscd::{Load, Model, Scheme, Settings, Span};
@@ -75,7 +76,7 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
     })
 }
 
-fn blocks(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Box<dyn Block>>, SceneError> {
+fn blocks(loaded: &LoadedScene, mesh: &ValidMesh) -> Result<Vec<Box<dyn Block>>, SceneError> {
     let scene = &loaded.scene;
     let mut blocks = Vec::new();
     for (index, (name, body)) in scene.bodies.iter().enumerate() {
@@ -104,12 +105,9 @@ fn supports(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Dirichlet>, SceneEr
             .map_err(|e| loaded.refuse(&format!("{path}.nodes"), e.to_string()))?;
         let motion = motion(&given.motion)
             .map_err(|e| loaded.refuse(&format!("{path}.motion"), e.to_string()))?;
-        Ok(Dirichlet {
-            nodes: nodes.to_vec(),
-            components: given.mask(),
-            motion,
-            name: name.clone(),
-        })
+        Ok(Dirichlet::clamped(name, nodes.to_vec())
+            .with_components(given.mask())
+            .with_motion(motion))
     };
     scene.motions.iter().map(one).collect()
 }
@@ -122,13 +120,10 @@ fn motion(given: &spec::Motion) -> Result<Motion, FeError> {
     let Some(([x, y, z], rotation)) = given.parts() else {
         return Ok(Motion::still());
     };
-    let rotation = match rotation {
-        Some(r) => Some(Rotation::new(r.point, r.axis, table(&r.angle)?)?),
-        None => None,
-    };
-    Ok(Motion {
-        translation: [table(x)?, table(y)?, table(z)?],
-        rotation,
+    let moved = Motion::translation([table(x)?, table(y)?, table(z)?]);
+    Ok(match rotation {
+        Some(r) => moved.with_rotation(Rotation::new(r.point, r.axis, table(&r.angle)?)?),
+        None => moved,
     })
 }
 
@@ -143,10 +138,7 @@ fn loads(
         match load {
             spec::Load::Gravity(acceleration) => {
                 let factor = Table::constant(1.0);
-                let gravity = Gravity {
-                    acceleration: (*acceleration).into(),
-                    factor: factor.clone(),
-                };
+                let gravity = Gravity::new(*acceleration, factor.clone());
                 let forces = gravity
                     .nodal_forces(mass)
                     .map_err(|e| refuse(e.to_string()))?;
@@ -162,11 +154,7 @@ fn loads(
                     .map_err(|e| refuse(e.to_string()))?
                     .to_vec();
                 let factor = table(factor).map_err(|e| refuse(e.to_string()))?;
-                let load = DeadTraction {
-                    facets,
-                    traction: (*traction).into(),
-                    factor: factor.clone(),
-                };
+                let load = DeadTraction::new(facets, *traction, factor.clone());
                 let forces = load.nodal_forces(mesh).map_err(|e| refuse(e.to_string()))?;
                 Ok(Load::new(forces, factor))
             }

@@ -2,11 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use fe_core::element::{corner_points, reference_gradients};
-use fe_core::quadrature::QuadraturePoint;
 use fe_core::{
     BoxMesh, CellKind, Dirichlet, Element, Hex8, Hex27, Interpolation, Mesh, Quad4, Quad9,
-    RectangleMesh, Solid, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,
+    QuadraturePoint, RectangleMesh, Solid, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, corner_points,
+    reference_gradients, solid_block,
 };
 use hyperelastic::{ElasticConstants, Material, NeoHookean, right_cauchy_green};
 use nalgebra::Matrix3;
@@ -70,10 +69,7 @@ fn fine_rule(kind: CellKind) -> Vec<QuadraturePoint> {
             for &(c, wc) in third {
                 let weight = wa * wb * wc;
                 rule.push(match kind.linear() {
-                    CellKind::Quad4 | CellKind::Hex8 => QuadraturePoint {
-                        xi: [a, b, c],
-                        weight,
-                    },
+                    CellKind::Quad4 | CellKind::Hex8 => QuadraturePoint::new([a, b, c], weight),
                     _ => collapsed([a, b, c], weight, kind.dim()),
                 });
             }
@@ -85,15 +81,12 @@ fn fine_rule(kind: CellKind) -> Vec<QuadraturePoint> {
 fn collapsed(xi: Vec3, weight: f64, dim: usize) -> QuadraturePoint {
     let [u, v, w] = xi.map(|x| 0.5 * (1.0 + x));
     if dim == 2 {
-        return QuadraturePoint {
-            xi: [u, v * (1.0 - u), 0.0],
-            weight: 0.25 * weight * (1.0 - u),
-        };
+        return QuadraturePoint::new([u, v * (1.0 - u), 0.0], 0.25 * weight * (1.0 - u));
     }
-    QuadraturePoint {
-        xi: [u, v * (1.0 - u), w * (1.0 - u) * (1.0 - v)],
-        weight: 0.125 * weight * (1.0 - u).powi(2) * (1.0 - v),
-    }
+    QuadraturePoint::new(
+        [u, v * (1.0 - u), w * (1.0 - u) * (1.0 - v)],
+        0.125 * weight * (1.0 - u).powi(2) * (1.0 - v),
+    )
 }
 
 /// Calls `add` at the points of the fine rule in every cell.
@@ -219,11 +212,12 @@ impl Problem {
 
     /// Displacement under the load, by the program's own steps.
     fn equilibrium(&self, mesh: Mesh, forces: Vec<f64>) -> Vec<f64> {
-        let hold = |(set, components): &(&str, [bool; 3])| Dirichlet {
-            components: *components,
-            ..Dirichlet::clamped(set, mesh.node_set(set).unwrap().to_vec())
+        let hold = |(set, components): &(&str, [bool; 3])| {
+            let nodes = mesh.node_set(set).unwrap().to_vec();
+            Dirichlet::clamped(set, nodes).with_components(*components)
         };
         let supports = self.held.iter().map(hold).collect();
+        let mesh = mesh.validated().unwrap();
         let block = solid_block(&mesh, 0, law(), 1.0).unwrap();
         let solid = Solid::new(mesh, vec![block]).unwrap();
         let ramp = Table::new(vec![(0.0, 0.0), (1.0, 1.0)], Interpolation::Linear).unwrap();

@@ -197,6 +197,7 @@ fn on_a_slope(angle: f64, end: f64) -> Run {
     }
     let elastic = ElasticConstants::from_young_poisson(1e11, 0.2).unwrap();
     let law = SaintVenantKirchhoff::new(elastic).unwrap();
+    let mesh = mesh.validated().unwrap();
     let block = solid_block(&mesh, 0, law, 1000.0).unwrap();
     model.solid = Solid::new(mesh, vec![block]).unwrap();
     try_run_built(built)

@@ -70,10 +70,8 @@ mod tests {
 
     /// Shift and turn, constant in time.
     fn motion(axis: Vector3<f64>, angle: f64, shift: Vector3<f64>) -> Motion {
-        Motion {
-            translation: <[f64; 3]>::from(shift).map(Table::constant),
-            rotation: Some(Rotation::new([0.1, 0.2, 0.0], axis, Table::constant(angle)).unwrap()),
-        }
+        let turn = Rotation::new([0.1, 0.2, 0.0], axis, Table::constant(angle)).unwrap();
+        Motion::translation(<[f64; 3]>::from(shift).map(Table::constant)).with_rotation(turn)
     }
 
     fn pair(facets: Vec<Facet>) -> Interface {
@@ -144,10 +142,8 @@ mod tests {
         fn axes_of_an_obstacle_are_its_motion(axis in vector(), angle in -3.0f64..3.0, shift in vector(), t in 0.0f64..1.0) {
             prop_assume!(axis.norm() > 0.1);
             let ramp = Table::new(vec![(0.0, 0.0), (1.0, angle)], fe_core::Interpolation::Linear).unwrap();
-            let motion = Motion {
-                rotation: Some(Rotation::new([0.0; 3], axis, ramp).unwrap()),
-                ..Motion::translation(<[f64; 3]>::from(shift).map(Table::constant))
-            };
+            let motion = Motion::translation(<[f64; 3]>::from(shift).map(Table::constant))
+                .with_rotation(Rotation::new([0.0; 3], axis, ramp).unwrap());
             let ball = Shape::Sphere { center: Vector3::zeros(), radius: 1.0 };
             let master = Master::Obstacle(Obstacle::new(ball, motion).unwrap());
             let interface = Interface::new("ball", vec![0], vec![1.0], master, 0.1);

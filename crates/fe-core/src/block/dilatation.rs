@@ -10,15 +10,15 @@ pub enum Dilatation {
     /// displacements of most elements can satisfy: they lock.
     #[default]
     Pointwise,
-    /// `J` of each point replaced by its projection onto few functions over the element, by [`crate::Element::DILATATION_MODES`]
-    /// (the mean over the element for linear elements). Does not lock, and is as good as the other one
-    /// for compressible matter. The energy is that of `Fbar = (Jbar/J)^(1/3) F`, so forces have a potential and the
-    /// tangent is symmetric.
+    /// `J` of each point replaced by its projection onto few functions over the element, by
+    /// [`crate::Element::DILATATION_MODES`] (the mean over the element for linear elements). Does not lock, and is as
+    /// good as the other one for compressible matter. The energy is that of `Fbar = (Jbar/J)^(1/3) F`, so forces have a
+    /// potential and the tangent is symmetric.
     Projected,
 }
 
-/// The first functions of 1, X, Y, Z at the quadrature points of one cell, made orthonormal under the weights `volumes` \[m^3\];
-/// `[point][function]` \[m^-3/2\]. `corners` are the coordinates of the nodes, `[i][a]` \[m\].
+/// The first functions of 1, X, Y, Z at the quadrature points of one cell, made orthonormal under the weights `volumes`
+/// \[m^3\]; `[point][function]` \[m^-3/2\]. `corners` are the coordinates of the nodes, `[i][a]` \[m\].
 ///
 /// Coordinates of space, not of the reference cell: a linear field is then its own projection on distorted cells too.
 pub(super) fn modes<E, const N: usize>(corners: &[[f64; N]; 3], volumes: &[f64]) -> Vec<f64>

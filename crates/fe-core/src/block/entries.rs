@@ -1,5 +1,5 @@
-//! What space and the plane do not share: the entries of `F` that can change, and the loops that know them; and the nodal
-//! forces, which are the same in both.
+//! What space and the plane do not share: the entries of `F` that can change, and the loops that know them; and the
+//! nodal forces, which are the same in both.
 
 use hyperelastic::{Material, Symmetric};
 

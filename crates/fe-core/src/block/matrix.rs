@@ -1,5 +1,5 @@
-//! Matrices of the kernels: rows in arrays, of which the compiler keeps the entries in registers. At the border to the law
-//! they become `nalgebra`'s, which costs nothing: the layouts are the same.
+//! Matrices of the kernels: rows in arrays, of which the compiler keeps the entries in registers. At the border to the
+//! law they become `nalgebra`'s, which costs nothing: the layouts are the same.
 
 use hyperelastic::Symmetric;
 

@@ -187,8 +187,8 @@ fn assemble_plane<const N: usize>(
     energy
 }
 
-/// `add(point, ..)` of the Hessian in `F` of each point, and the vectors `c_i` of the part `sum_i (c_i g_i + g_i c_i)` of the
-/// tangent, with the rates `g_i`.
+/// `add(point, ..)` of the Hessian in `F` of each point, and the vectors `c_i` of the part `sum_i (c_i g_i + g_i c_i)`
+/// of the tangent, with the rates `g_i`.
 #[inline(always)]
 fn hessians<L: Entries<K>, const K: usize, const N: usize>(
     element: Points<'_, N>,

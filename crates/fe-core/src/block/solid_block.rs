@@ -12,7 +12,7 @@ use super::projection::{Points, Workspace};
 use super::{Block, ElementState, plane_kernel, projected_kernel, tangent_len};
 use crate::element::{Element, corner_points, jacobian, reference_gradients};
 use crate::error::{FeError, check_length};
-use crate::mesh::{CellBlock, Mesh};
+use crate::mesh::{CellBlock, Mesh, ValidMesh};
 use crate::parallel::{ELEMENTS_PER_TASK, sequential};
 use crate::symmetry::Symmetry;
 
@@ -31,6 +31,8 @@ pub struct SolidBlock<E: Element, M: Material> {
     density: f64,
     corners: Vec<[E::Nodal; 3]>,
     gradients: Vec<[E::Nodal; 3]>,
+    /// Reference volume of each quadrature point \[m^3\]; of one metre of thickness in plane strain, of the ring if
+    /// axisymmetric.
     volumes: Vec<f64>,
     dilatation: Dilatation,
     /// Of the projected dilatation, `[point][function]`; else empty.
@@ -51,11 +53,10 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
     /// The elements of `mesh.blocks[block_index]` with a material and a density \[kg/m^3\].
     ///
     /// # Errors
-    /// [`FeError::Mesh`] if its points or the cells of the block are invalid (its sets are left to [`crate::Solid::new`]), [`FeError::Index`] if there is no such block,
-    /// [`FeError::CellKind`] if its cells are not `E`, [`FeError::Parameter`] unless the density is positive
-    /// and finite.
+    /// [`FeError::Index`] if there is no such block, [`FeError::CellKind`] if its cells are not `E`,
+    /// [`FeError::Parameter`] unless the density is positive and finite.
     pub fn new<const N: usize>(
-        mesh: &Mesh,
+        mesh: &ValidMesh,
         block_index: usize,
         material: M,
         density: f64,
@@ -65,7 +66,6 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
     {
         let block = cell_block(mesh, block_index)?;
         check_kind::<E>(block)?;
-        mesh.validate_block(block)?;
         check_density(&block.name, density)?;
         let points = block.cell_count() * E::POINTS;
         let mut gradients = Vec::with_capacity(points);
@@ -139,12 +139,6 @@ impl<E: Element, M: Material> SolidBlock<E, M> {
     /// Density in the reference configuration \[kg/m^3\].
     pub fn density(&self) -> f64 {
         self.density
-    }
-
-    /// Reference volume of each quadrature point \[m^3\], element after element; of one metre of thickness in plane
-    /// strain, of the ring if axisymmetric.
-    pub fn point_volumes(&self) -> &[f64] {
-        &self.volumes
     }
 
     fn cell(&self, element: usize) -> &[u32] {

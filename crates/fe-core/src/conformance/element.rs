@@ -7,8 +7,14 @@ use crate::element::Facet;
 use crate::element::{Element, jacobian};
 use crate::quadrature::QuadraturePoint;
 
-/// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields
-/// (quadratic ones from degree 2), and have the right derivatives; both rules measure the volume; facets are closed and point outward.
+/// Step of the central differences in a reference coordinate \[-\]. Shape functions are of the second degree in each,
+/// so that nothing is left but round-off over the step, 1e-11.
+const STEP: f64 = 1e-5;
+/// Allowed difference of a derivative from central differences \[-\]: a thousand times what the step leaves.
+const SLOPES: f64 = 1e-8;
+
+/// Shape functions are one at their node and zero at the others, sum to one, reproduce linear fields (quadratic ones
+/// from degree 2), and have the right derivatives; both rules measure the volume; facets are closed and point outward.
 ///
 /// # Errors
 /// The first [`Violation`] found.
@@ -64,22 +70,21 @@ where
             let expected = xi[i] * xi[j];
             same("quadratic completeness", place, found, expected, AGREEMENT)?;
         }
-        let h = 1e-5;
         let at = |step: f64| {
             let mut moved = *xi;
             moved[i] += step;
             E::shape(&moved)
         };
-        let (after, before) = (at(h), at(-h));
+        let (after, before) = (at(STEP), at(-STEP));
         for a in 0..N {
-            let difference = (after[a] - before[a]) / (2.0 * h);
+            let difference = (after[a] - before[a]) / (2.0 * STEP);
             let found = derivatives[i][a];
             same(
                 "derivative of a shape function",
                 place,
                 found,
                 difference,
-                1e-8,
+                SLOPES,
             )?;
         }
     }

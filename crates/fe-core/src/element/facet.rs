@@ -85,6 +85,7 @@ static QUADRILATERALS: [&[usize]; 4] = [&[0, 4, 8, 7], &[4, 1, 5, 8], &[8, 5, 2,
 /// Seen from outside the body the corners turn counter-clockwise (right-hand rule); in the plane the
 /// body lies to the left of the way from the first node to the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub struct Facet {
     /// Shape, which gives the number of nodes.
     pub kind: FacetKind,
@@ -94,21 +95,25 @@ pub struct Facet {
 
 impl Facet {
     /// An edge of a plane body.
+    #[must_use]
     pub fn edge(nodes: [u32; 2]) -> Facet {
         Facet::new(FacetKind::Edge2, nodes)
     }
 
     /// A triangle.
+    #[must_use]
     pub fn triangle(nodes: [u32; 3]) -> Facet {
         Facet::new(FacetKind::Tri3, nodes)
     }
 
     /// A quadrilateral.
+    #[must_use]
     pub fn quad(nodes: [u32; 4]) -> Facet {
         Facet::new(FacetKind::Quad4, nodes)
     }
 
     /// A facet of any kind; nodes in excess of those of the kind are ignored.
+    #[must_use]
     pub fn new(kind: FacetKind, given: impl IntoIterator<Item = u32>) -> Facet {
         let mut nodes = [u32::MAX; 9];
         let used = nodes[..kind.node_count()].iter_mut();

@@ -1,7 +1,7 @@
 //! Triquadratic hexahedron, 27 nodes, 27 Gauss points.
 
 use super::quadratic::{line, line_derivative};
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{HEXAHEDRON_27, HEXAHEDRON_64, QuadraturePoint};
 
 /// Triquadratic hexahedron on \[-1, 1\]^3.
@@ -9,7 +9,7 @@ use crate::quadrature::{HEXAHEDRON_27, HEXAHEDRON_64, QuadraturePoint};
 pub struct Hex27;
 
 /// Corners of the reference cube, middles of its edges, of its faces, its centre (VTK order).
-pub const REFERENCE_NODES: [[f64; 3]; 27] = [
+const REFERENCE_NODES: [[f64; 3]; 27] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -84,6 +84,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Quad9,
     vtk_type: 29,
+    grid_cut: GridCut::Cells(&[&[0, 1, 2, 3, 4, 5, 6, 7]]),
 };
 
 impl Element for Hex27 {

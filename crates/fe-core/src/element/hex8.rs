@@ -1,6 +1,6 @@
 //! Trilinear hexahedron, 8 nodes, 8 Gauss points.
 
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{HEXAHEDRON_8, HEXAHEDRON_27, QuadraturePoint};
 
 /// Trilinear hexahedron on \[-1, 1\]^3.
@@ -8,7 +8,7 @@ use crate::quadrature::{HEXAHEDRON_8, HEXAHEDRON_27, QuadraturePoint};
 pub struct Hex8;
 
 /// Corners of the reference cube, VTK order.
-pub const REFERENCE_NODES: [[f64; 3]; 8] = [
+const REFERENCE_NODES: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -41,6 +41,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Quad4,
     vtk_type: 12,
+    grid_cut: GridCut::Cells(&[&[0, 1, 2, 3, 4, 5, 6, 7]]),
 };
 
 impl Element for Hex8 {

@@ -1,6 +1,6 @@
 //! Bilinear quadrilateral, 4 nodes, 4 Gauss points.
 
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QUADRILATERAL_4, QUADRILATERAL_9, QuadraturePoint};
 
 /// Bilinear quadrilateral on \[-1, 1\]^2.
@@ -8,7 +8,7 @@ use crate::quadrature::{QUADRILATERAL_4, QUADRILATERAL_9, QuadraturePoint};
 pub struct Quad4;
 
 /// Corners of the reference square, counter-clockwise (VTK order).
-pub const REFERENCE_NODES: [[f64; 3]; 4] = [
+const REFERENCE_NODES: [[f64; 3]; 4] = [
     [-1.0, -1.0, 0.0],
     [1.0, -1.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -30,6 +30,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Edge2,
     vtk_type: 9,
+    grid_cut: GridCut::Cells(&[&[0, 1, 2, 3]]),
 };
 
 impl Element for Quad4 {

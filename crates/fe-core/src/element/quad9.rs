@@ -2,7 +2,7 @@
 
 use super::facet::QUADRILATERAL_PARENTS;
 use super::quadratic::{line, line_derivative};
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QUADRILATERAL_9, QUADRILATERAL_16, QuadraturePoint};
 
 /// Biquadratic quadrilateral on \[-1, 1\]^2.
@@ -10,7 +10,7 @@ use crate::quadrature::{QUADRILATERAL_9, QUADRILATERAL_16, QuadraturePoint};
 pub struct Quad9;
 
 /// Corners of the reference square, counter-clockwise, middles of its edges, its centre (VTK order).
-pub const REFERENCE_NODES: [[f64; 3]; 9] = [
+const REFERENCE_NODES: [[f64; 3]; 9] = [
     [-1.0, -1.0, 0.0],
     [1.0, -1.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -37,6 +37,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Edge3,
     vtk_type: 28,
+    grid_cut: GridCut::Cells(&[&[0, 1, 2, 3]]),
 };
 
 impl Element for Quad9 {

@@ -1,7 +1,8 @@
 //! Quadratic tetrahedron, 10 nodes, 8 points.
 
 use super::quadratic::{simplex, simplex_derivatives};
-use super::{CellData, CellKind, Element, FacetKind};
+use super::tet4::TETRAHEDRA_OF_BRICK;
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QuadraturePoint, TETRAHEDRON_8, TETRAHEDRON_14};
 
 /// Quadratic tetrahedron on the corner of the unit cube.
@@ -9,7 +10,7 @@ use crate::quadrature::{QuadraturePoint, TETRAHEDRON_8, TETRAHEDRON_14};
 pub struct Tet10;
 
 /// Corners of the reference tetrahedron and middles of its edges, VTK order.
-pub const REFERENCE_NODES: [[f64; 3]; 10] = [
+const REFERENCE_NODES: [[f64; 3]; 10] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -45,6 +46,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Tri6,
     vtk_type: 24,
+    grid_cut: GridCut::Cells(&TETRAHEDRA_OF_BRICK),
 };
 
 impl Element for Tet10 {

@@ -1,6 +1,6 @@
 //! Linear tetrahedron, 4 nodes, 1 point.
 
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QuadraturePoint, TETRAHEDRON_1, TETRAHEDRON_4};
 
 /// Linear tetrahedron on the corner of the unit cube.
@@ -8,7 +8,7 @@ use crate::quadrature::{QuadraturePoint, TETRAHEDRON_1, TETRAHEDRON_4};
 pub struct Tet4;
 
 /// Corners of the reference tetrahedron, VTK order.
-pub const REFERENCE_NODES: [[f64; 3]; 4] = [
+const REFERENCE_NODES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -17,6 +17,17 @@ pub const REFERENCE_NODES: [[f64; 3]; 4] = [
 
 /// Local nodes of the facets, outward.
 static FACETS: [&[usize]; 4] = [&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[0, 3, 2]];
+
+/// The six tetrahedra of a brick around its diagonal 0-6. The same split in each brick makes the faces of
+/// neighbours fit (Kuhn's triangulation).
+pub(super) static TETRAHEDRA_OF_BRICK: [&[usize]; 6] = [
+    &[0, 1, 2, 6],
+    &[0, 2, 3, 6],
+    &[0, 3, 7, 6],
+    &[0, 7, 4, 6],
+    &[0, 4, 5, 6],
+    &[0, 5, 1, 6],
+];
 
 /// Row of the table of kinds.
 pub(super) static CELL: CellData = CellData {
@@ -30,6 +41,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Tri3,
     vtk_type: 10,
+    grid_cut: GridCut::Cells(&TETRAHEDRA_OF_BRICK),
 };
 
 impl Element for Tet4 {

@@ -1,6 +1,6 @@
 //! Linear triangle, 3 nodes, 1 point.
 
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QuadraturePoint, TRIANGLE_1, TRIANGLE_6};
 
 /// Linear triangle on the corner of the unit square.
@@ -8,7 +8,7 @@ use crate::quadrature::{QuadraturePoint, TRIANGLE_1, TRIANGLE_6};
 pub struct Tri3;
 
 /// Corners of the reference triangle, counter-clockwise (VTK order).
-pub const REFERENCE_NODES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+const REFERENCE_NODES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 /// Local nodes of the edges, the cell to their left.
 static FACETS: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
@@ -25,6 +25,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Edge2,
     vtk_type: 5,
+    grid_cut: GridCut::ShorterDiagonal,
 };
 
 impl Element for Tri3 {

@@ -2,7 +2,7 @@
 
 use super::facet::TRIANGLE_PARENTS;
 use super::quadratic::{simplex, simplex_derivatives};
-use super::{CellData, CellKind, Element, FacetKind};
+use super::{CellData, CellKind, Element, FacetKind, GridCut};
 use crate::quadrature::{QuadraturePoint, TRIANGLE_6, TRIANGLE_7};
 
 /// Quadratic triangle on the corner of the unit square.
@@ -10,7 +10,7 @@ use crate::quadrature::{QuadraturePoint, TRIANGLE_6, TRIANGLE_7};
 pub struct Tri6;
 
 /// Corners of the reference triangle, counter-clockwise, and middles of its edges (VTK order).
-pub const REFERENCE_NODES: [[f64; 3]; 6] = [
+const REFERENCE_NODES: [[f64; 3]; 6] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -34,6 +34,7 @@ pub(super) static CELL: CellData = CellData {
     facets: &FACETS,
     facet_kind: FacetKind::Edge3,
     vtk_type: 22,
+    grid_cut: GridCut::ShorterDiagonal,
 };
 
 impl Element for Tri6 {

@@ -23,7 +23,7 @@ pub use rectangle::RectangleMesh;
 use nalgebra::Vector3;
 
 use super::{CellBlock, Mesh};
-use crate::element::{CellKind, Facet};
+use crate::element::{CellKind, Facet, GridCut};
 use crate::mesh::MeshError;
 use crate::symmetry::Symmetry;
 
@@ -115,18 +115,9 @@ fn single_block(
     cells: Vec<u32>,
 ) -> Mesh {
     let all = (0..points.len() as u32).collect();
-    Mesh {
-        dim: symmetry.dim(),
-        symmetry,
-        points,
-        blocks: vec![CellBlock {
-            name: block.to_owned(),
-            kind,
-            cells,
-        }],
-        node_sets: [("all".to_owned(), all)].into(),
-        facet_sets: Default::default(),
-    }
+    let mut mesh = Mesh::new(symmetry, points, vec![CellBlock::new(block, kind, cells)]);
+    mesh.node_sets.insert("all".to_owned(), all);
+    mesh
 }
 
 /// Names the part of the boundary whose nodes satisfy `belongs`, which is given their numbers.
@@ -152,19 +143,19 @@ fn check_shape_kind(shape: &'static str, kind: CellKind, of: CellKind) -> Result
     })
 }
 
-/// Other cells in a mesh of quadrilaterals or hexahedra: cut into triangles, of degree 2.
+/// The cells asked for in a mesh of quadrilaterals or hexahedra: cut, and of degree 2.
 ///
-/// A new node whose corners all belong to `round` goes to the sphere around `center` \[m\] with the mean of their radii.
+/// A new node whose corners all belong to `round` goes to the sphere around `center` \[m\] with the mean of their
+/// radii.
 fn into_kind(
     mut mesh: Mesh,
     kind: CellKind,
     center: Vector3<f64>,
     round: impl Fn(u32) -> bool,
 ) -> Result<Mesh, MeshError> {
-    if kind.linear() == CellKind::Tri3 {
-        mesh.blocks[0].cells = triangles(&mesh.points, &mesh.blocks[0].cells);
-        mesh.blocks[0].kind = CellKind::Tri3;
-    }
+    let block = &mut mesh.blocks[0];
+    block.cells = cut_grid(kind, &mesh.points, &block.cells);
+    block.kind = kind.linear();
     if kind.degree() == 1 {
         return Ok(mesh);
     }
@@ -187,13 +178,31 @@ fn of_degree(degree: usize, mesh: Mesh) -> Result<Mesh, MeshError> {
     }
 }
 
+/// Cells of degree 1 with the corners of a kind, from quadrilaterals or bricks.
+fn cut_grid(kind: CellKind, points: &[Vector3<f64>], grid_cells: &[u32]) -> Vec<u32> {
+    let parts = match kind.grid_cut() {
+        GridCut::Cells(parts) => parts,
+        GridCut::ShorterDiagonal => return triangles(points, grid_cells),
+    };
+    let corners = 1 << kind.dim();
+    let mut cells = Vec::new();
+    for grid_cell in grid_cells.chunks_exact(corners) {
+        let local = parts.iter().copied().flatten();
+        cells.extend(local.map(|&corner| grid_cell[corner]));
+    }
+    cells
+}
+
+/// Squares of the two diagonals of a quadrilateral whose relative difference is less are equal \[-\]: round-off must
+/// not decide between them.
+const EQUAL_DIAGONALS: f64 = 1e-9;
+
 /// Cuts quadrilaterals along their shorter diagonal into triangles.
 fn triangles(points: &[Vector3<f64>], quads: &[u32]) -> Vec<u32> {
     let length = |a: u32, b: u32| (points[a as usize] - points[b as usize]).norm_squared();
     let cut = |quad: &[u32]| {
         let [a, b, c, d] = [quad[0], quad[1], quad[2], quad[3]];
-        // Round-off must not decide between equal diagonals.
-        if length(a, c) <= (1.0 + 1e-9) * length(b, d) {
+        if length(a, c) <= (1.0 + EQUAL_DIAGONALS) * length(b, d) {
             [a, b, c, a, c, d]
         } else {
             [a, b, d, b, c, d]

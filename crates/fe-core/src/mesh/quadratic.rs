@@ -28,7 +28,7 @@ impl Mesh {
     ///
     /// # Errors
     /// As [`Mesh::quadratic`].
-    pub fn quadratic_at(
+    pub(crate) fn quadratic_at(
         &self,
         place: impl Fn(&[u32], Vector3<f64>) -> Vector3<f64>,
     ) -> Result<Mesh, MeshError> {
@@ -113,11 +113,7 @@ impl<F: Fn(&[u32], Vector3<f64>) -> Vector3<f64>> Builder<F> {
                 cells.push(node);
             }
         }
-        CellBlock {
-            name: block.name.clone(),
-            kind,
-            cells,
-        }
+        CellBlock::new(&block.name, kind, cells)
     }
 
     fn facet(&mut self, facet: &Facet) -> Facet {

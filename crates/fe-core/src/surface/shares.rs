@@ -8,7 +8,7 @@ use crate::element::{Facet, FacetKind};
 use crate::quadrature::GAUSS_3;
 use crate::symmetry::Symmetry;
 
-/// Below this part of the area of a facet the share of a node is no measure of what acts there.
+/// Below this part of the area of a facet \[-\] the share of a node is no measure of what acts there.
 const LEAST: f64 = 0.01;
 
 /// Integral of each shape function over a facet \[m^2\]; unused entries are zero. Exact on flat facets with straight

@@ -7,11 +7,12 @@ use nalgebra::Vector3;
 use super::Surface;
 
 impl Surface {
-    /// How often the surface goes round `point` \[-\]: 1 inside of a closed outward surface, 0 outside, something between for
-    /// a point on it or for a surface with holes. Bilinear facets count as two triangles.
+    /// How often the surface goes round `point` \[-\]: 1 inside of a closed outward surface, 0 outside, something
+    /// between for a point on it or for a surface with holes. Bilinear facets count as two triangles.
     ///
-    /// `positions` are current coordinates \[m\] of the whole mesh, flat, `dim * node + component`. Source: the solid angle of
-    /// a triangle of Van Oosterom and Strackee (1983); in the plane, the angle of an edge.
+    /// `positions` are current coordinates \[m\] of the whole mesh, flat, `dim * node + component`. Source: the solid
+    /// angle of a triangle of Van Oosterom and Strackee (1983); in the plane, the angle of an edge.
+    #[must_use]
     pub fn winding(&self, positions: &[f64], point: Vector3<f64>) -> f64 {
         let seen = |facet| {
             let x = self.facet_positions(facet, positions);

@@ -326,6 +326,7 @@ fn nodes_without_block_are_an_error() {
         .generate("other")
         .unwrap();
     mesh.append("other", other).unwrap();
+    let mesh = mesh.validated().unwrap();
     let only = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     assert!(matches!(
         Solid::new(mesh, vec![only]),

@@ -1,13 +1,13 @@
 //! Elements and blocks: the conformance battery, the papers' matrices as an oracle, refusals.
 
 use fe_core::conformance::{self, Violation};
-use fe_core::element::{corner_points, reference_gradients};
-use fe_core::kinematics::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
 use fe_core::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::{
     BoxMesh, CellKind, Element, FeError, Hex8, Hex27, Mesh, Motion, Quad4, Quad9, Rotation, Solid,
     SolidBlock, Symmetry, Table, Tet4, Tet10, Tri3, Tri6, solid_block,
 };
+use fe_core::{corner_points, reference_gradients};
+use fe_core::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
 use hyperelastic::tensor::to_matrix;
 use hyperelastic::{Material, SaintVenantKirchhoff, right_cauchy_green};
 use nalgebra::{Matrix3, Vector3};
@@ -82,12 +82,11 @@ fn stress_state_of_a_stretched_and_turned_bar() {
     let mesh = BoxMesh::uniform([0.0; 3], [2.0, 1.0, 1.0], [2, 1, 1])
         .generate("bar")
         .unwrap();
+    let mesh = mesh.validated().unwrap();
     let block = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     let quarter = Table::constant(std::f64::consts::FRAC_PI_2);
-    let turn = Motion {
-        rotation: Some(Rotation::new([0.0; 3], [0.0, 0.0, 1.0], quarter).unwrap()),
-        ..Motion::still()
-    };
+    let turn = Rotation::new([0.0; 3], [0.0, 0.0, 1.0], quarter).unwrap();
+    let turn = Motion::still().with_rotation(turn);
     let stretch = 1.4;
     let moved = |x: &Vector3<f64>| {
         let y = turn.position(Vector3::new(stretch * x[0], x[1], x[2]), 0.0);
@@ -156,11 +155,12 @@ where
     (force, tangent)
 }
 
-fn compare_with_the_papers<E, M, const N: usize>(mesh: &Mesh, material: M, u: &[f64])
+fn compare_with_the_papers<E, M, const N: usize>(mesh: Mesh, material: M, u: &[f64])
 where
     E: Element<Nodal = [f64; N]>,
     M: Material,
 {
+    let mesh = &mesh.validated().unwrap();
     let block = SolidBlock::<E, M>::new(mesh, 0, material.clone(), 1.0).unwrap();
     let count = block.element_count();
     let entries = tangent_len(3, N);
@@ -195,7 +195,7 @@ proptest! {
     #[test]
     fn blocks_pass_the_battery_at_random_deformations(u in common::displacement(45, 0.06)) {
         for kind in KINDS {
-            let mesh = distorted_box([2, 1, 1], kind, 0.1, true);
+            let mesh = distorted_box([2, 1, 1], kind, 0.1, true).validated().unwrap();
             // Nodes stand twice as close.
             let size = 1.0 / kind.degree() as f64;
             let u: Vec<f64> = u[..3 * mesh.points.len()].iter().map(|u| size * u).collect();
@@ -213,9 +213,9 @@ proptest! {
     #[test]
     fn kernels_agree_with_the_papers_matrices(u in common::displacement(12, 0.08)) {
         let mesh = distorted_box([2, 1, 1], CellKind::Hex8, 0.1, true);
-        compare_with_the_papers::<Hex8, _, 8>(&mesh, blatz_ko(), &u);
+        compare_with_the_papers::<Hex8, _, 8>(mesh, blatz_ko(), &u);
         let mesh = distorted_box([2, 1, 1], CellKind::Tet4, 0.1, true);
-        compare_with_the_papers::<Tet4, _, 4>(&mesh, neo_hookean(), &u);
+        compare_with_the_papers::<Tet4, _, 4>(mesh, neo_hookean(), &u);
     }
 }
 
@@ -273,6 +273,7 @@ impl Block for Wrong {
 #[test]
 fn battery_finds_small_mistakes() {
     let mesh = distorted_box([2, 1, 1], CellKind::Hex8, 0.1, true);
+    let mesh = mesh.validated().unwrap();
     let u = common::wave(&mesh, 0.05);
     let verdict = |force, tangent, skew| {
         let inner = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
@@ -300,6 +301,7 @@ fn inverted_elements_are_reported_lowest_first() {
     let mesh = BoxMesh::uniform([0.0; 3], [1.0; 3], [6; 3])
         .generate("cube")
         .unwrap();
+    let mesh = mesh.validated().unwrap();
     let block = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     let mut u = vec![0.0; 3 * mesh.points.len()];
     for element in [70, 133, 200] {
@@ -337,6 +339,7 @@ fn inverted_elements_are_reported_lowest_first() {
 #[test]
 fn impossible_blocks_are_refused() {
     let mesh = distorted_box([1, 1, 1], CellKind::Hex8, 0.0, false);
+    let mesh = mesh.validated().unwrap();
     for density in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let error = solid_block(&mesh, 0, blatz_ko(), density).unwrap_err();
         assert!(error.to_string().contains("density [kg/m^3]"), "{error}");
@@ -346,9 +349,9 @@ fn impossible_blocks_are_refused() {
     assert!(matches!(missing, FeError::Index { index: 1, .. }));
     let kind = SolidBlock::<Tet4, _>::new(&mesh, 0, blatz_ko(), 1.0).unwrap_err();
     assert!(matches!(kind, FeError::CellKind { .. }));
-    let mut flipped = mesh;
+    let mut flipped = mesh.into_inner();
     flipped.blocks[0].cells.swap(0, 6);
-    let error = solid_block(&flipped, 0, blatz_ko(), 1.0).unwrap_err();
+    let error = flipped.validated().unwrap_err();
     assert!(
         error
             .to_string()

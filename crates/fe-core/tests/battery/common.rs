@@ -110,6 +110,7 @@ pub(crate) fn curved(mut mesh: Mesh, by: f64) -> Mesh {
 }
 
 pub(crate) fn solid<M: Material>(mesh: Mesh, material: M, density: f64) -> Solid {
+    let mesh = mesh.validated().unwrap();
     let blocks = (0..mesh.blocks.len())
         .map(|index| solid_block(&mesh, index, material.clone(), density).unwrap());
     let blocks = blocks.collect();

@@ -123,7 +123,7 @@ proptest! {
             .collect();
         for kind in PLANE_KINDS.into_iter().chain(KINDS) {
             let dim = kind.dim();
-            let mesh = GridMesh { axes: axes[..dim].to_vec(), refine, kind }.generate("a").unwrap();
+            let mesh = GridMesh::new(axes[..dim].to_vec(), kind).with_refine(refine).generate("a").unwrap();
             mesh.validate().unwrap();
             let n: Vec<usize> = axes[..dim].iter().map(|axis| axis.cells().unwrap() * refine).collect();
             prop_assert_eq!(mesh.points.len(), n.iter().map(|n| kind.degree() * n + 1).product::<usize>());
@@ -166,11 +166,8 @@ fn impossible_grids_are_refused_with_the_bound() {
     assert!(axis(f64::NAN, &[start]).lines(1).is_err());
     assert!(axis(0.0, &[start]).lines(0).is_err());
     assert!(axis(0.0, &[start]).lines(usize::MAX).is_err());
-    let grid = |count: usize, kind| GridMesh {
-        axes: vec![axis(0.0, &[cells(1.0, 1_000_000, 1.0)]); count],
-        refine: 1,
-        kind,
-    };
+    let fine = axis(0.0, &[cells(1.0, 1_000_000, 1.0)]);
+    let grid = |count: usize, kind| GridMesh::new(vec![fine.clone(); count], kind);
     let refused = [
         (grid(2, CellKind::Quad4), "2^32"),
         (grid(2, CellKind::Hex8), "dimension 2"),
@@ -186,11 +183,8 @@ fn impossible_grids_are_refused_with_the_bound() {
 #[test]
 fn a_crown_bends_the_top_like_a_ball_and_leaves_the_bottom() {
     let lines = |from: f64, to: f64| GridAxis::graded(from, to, 5, 2.0);
-    let flat = |dim: usize, kind| GridMesh {
-        axes: [lines(-1.0, 2.0), lines(-0.5, 1.0), lines(-3.0, 0.5)][..dim].to_vec(),
-        refine: 1,
-        kind,
-    };
+    let axes = [lines(-1.0, 2.0), lines(-0.5, 1.0), lines(-3.0, 0.5)];
+    let flat = |dim: usize, kind| GridMesh::new(axes[..dim].to_vec(), kind);
     for (dim, kind) in [(2, CellKind::Quad4), (3, CellKind::Hex8)] {
         let grid = flat(dim, kind);
         let (plain, bent) = (

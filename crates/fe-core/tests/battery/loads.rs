@@ -14,16 +14,11 @@ fn ramp(v: f64) -> Table {
 #[test]
 fn prescribed_nodes_follow_the_motion_in_their_components_only() {
     let mesh = distorted_box([2, 2, 2], CellKind::Hex8, 0.0, false);
-    let motion = Motion {
-        translation: [ramp(0.1), Table::zero(), ramp(-0.2)],
-        rotation: Some(Rotation::new([0.5, 0.6, 0.0], [0.0, 0.0, 1.0], ramp(1.0)).unwrap()),
-    };
-    let driven = Dirichlet {
-        nodes: mesh.node_sets["z_max"].clone(),
-        components: [true, false, true],
-        motion: motion.clone(),
-        name: "top".to_owned(),
-    };
+    let motion = Motion::translation([ramp(0.1), Table::zero(), ramp(-0.2)])
+        .with_rotation(Rotation::new([0.5, 0.6, 0.0], [0.0, 0.0, 1.0], ramp(1.0)).unwrap());
+    let driven = Dirichlet::clamped("top", mesh.node_sets["z_max"].clone())
+        .with_components([true, false, true])
+        .with_motion(motion.clone());
     driven.check(&mesh).unwrap();
     let dofs: Vec<usize> = driven.dofs(3).collect();
     assert_eq!(dofs.len(), 18);
@@ -51,11 +46,8 @@ fn prescribed_nodes_follow_the_motion_in_their_components_only() {
 fn tractions_have_their_resultant_and_moment() {
     for kind in KINDS {
         let mesh = distorted_box([3, 2, 2], kind, 0.2, false);
-        let pull = DeadTraction {
-            facets: mesh.facet_sets["x_max"].clone(),
-            traction: Vector3::new(2.0, 0.0, -3.0),
-            factor: Table::constant(1.0),
-        };
+        let side = mesh.facet_sets["x_max"].clone();
+        let pull = DeadTraction::new(side, [2.0, 0.0, -3.0], Table::constant(1.0));
         let f = pull.nodal_forces(&mesh).unwrap();
         let area = 1.2 * 0.8;
         for i in 0..3 {
@@ -77,10 +69,7 @@ fn tractions_have_their_resultant_and_moment() {
 fn weight_is_mass_times_gravity_for_both_masses() {
     let mesh = distorted_box([2, 3, 2], CellKind::Tet4, 0.2, true);
     let solid = common::solid(mesh, blatz_ko(), 40.0);
-    let gravity = Gravity {
-        acceleration: Vector3::new(0.0, 1.0, -9.81),
-        factor: Table::constant(1.0),
-    };
+    let gravity = Gravity::new([0.0, 1.0, -9.81], Table::constant(1.0));
     let consistent = gravity.nodal_forces(&solid.consistent_mass()).unwrap();
     let lumped = gravity.nodal_forces(&solid.lumped_mass()).unwrap();
     let uniform: Vec<f64> = (0..solid.dof_count())
@@ -97,10 +86,8 @@ fn weight_is_mass_times_gravity_for_both_masses() {
 #[test]
 fn impossible_loads_are_refused() {
     let mesh = distorted_box([1, 1, 1], CellKind::Hex8, 0.0, false);
-    let load = |traction| DeadTraction {
-        facets: mesh.facet_sets["x_max"].clone(),
-        traction,
-        factor: Table::zero(),
+    let load = |traction: Vector3<f64>| {
+        DeadTraction::new(mesh.facet_sets["x_max"].clone(), traction, Table::zero())
     };
     assert!(matches!(
         load(Vector3::repeat(f64::NAN)).nodal_forces(&mesh),
@@ -118,10 +105,7 @@ fn impossible_loads_are_refused() {
         far.nodal_forces(&mesh),
         Err(FeError::Index { .. })
     ));
-    let gravity = Gravity {
-        acceleration: Vector3::new(f64::INFINITY, 0.0, 0.0),
-        factor: Table::zero(),
-    };
+    let gravity = Gravity::new([f64::INFINITY, 0.0, 0.0], Table::zero());
     let solid = common::solid(mesh, blatz_ko(), 1.0);
     assert!(gravity.nodal_forces(&solid.lumped_mass()).is_err());
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use fe_core::{CellKind, Dilatation, Mesh, RectangleMesh, Symmetry, solid_block_with};
+use fe_core::{CellKind, Dilatation, Mesh, RectangleMesh, Symmetry, ValidMesh, solid_block_with};
 use fe_core::{ElementState, tangent_index, tangent_len};
 use hyperelastic::{ElasticConstants, SaintVenantKirchhoff};
 use nalgebra::Vector3;
@@ -15,7 +15,7 @@ type Field<T> = Box<dyn Fn(&Vector3<f64>, f64) -> T>;
 
 /// A plane problem with a closed form, pressed along one set of facets.
 struct Problem {
-    mesh: Mesh,
+    mesh: ValidMesh,
     /// Sets of nodes and the component that is held there.
     held: Vec<(&'static str, usize)>,
     load: Vec<f64>,
@@ -93,7 +93,8 @@ fn rectangle(kind: CellKind, corners: [[f64; 2]; 2], cells: [usize; 2], distorti
     }
 }
 
-/// Quarter of a tube (plane strain) or of a hollow ball (axisymmetric) of radii 1 and 2 under the inner pressure 1 \[Lame\].
+/// Quarter of a tube (plane strain) or of a hollow ball (axisymmetric) of radii 1 and 2 under the inner pressure 1
+/// \[Lame\].
 fn hollow(symmetry: Symmetry, kind: CellKind, cells: usize, distortion: f64) -> Problem {
     let corners = [[1.0, 0.0], [2.0, FRAC_PI_2]];
     let mut mesh = rectangle(kind, corners, [cells, 2 * cells], distortion);
@@ -118,7 +119,7 @@ fn hollow(symmetry: Symmetry, kind: CellKind, cells: usize, distortion: f64) -> 
         }
     };
     Problem {
-        mesh,
+        mesh: mesh.validated().unwrap(),
         held: vec![("y_min", 1), ("y_max", 0)],
         load,
         exact: Box::new(move |x, nu| {
@@ -158,7 +159,7 @@ fn layer(kind: CellKind, cells: usize, distortion: f64) -> Problem {
         ]
     };
     Problem {
-        mesh,
+        mesh: mesh.validated().unwrap(),
         held: vec![("x_min", 0), ("x_max", 0), ("y_min", 1)],
         load,
         exact: Box::new(exact),
@@ -280,8 +281,8 @@ fn center(mesh: &Mesh, cell: &[u32]) -> Vector3<f64> {
     sum / cell.len() as f64
 }
 
-/// Root mean square over patches of 2 x 2 cells of the part of the pressure that changes its sign from cell to cell, relative
-/// to that of the pressure: one for a checkerboard, of order `h^2` for a smooth field.
+/// Root mean square over patches of 2 x 2 cells of the part of the pressure that changes its sign from cell to cell,
+/// relative to that of the pressure: one for a checkerboard, of order `h^2` for a smooth field.
 fn checkerboard(pressure: &[f64], columns: usize) -> f64 {
     let at = |i: usize, j: usize| pressure[columns * j + i];
     let mut sum = 0.0;
@@ -349,8 +350,8 @@ fn displacement_and_pressure_converge_on_regular_meshes() {
     }
 }
 
-/// Cells of random shape: the alternating part of the pressure is bounded, but it does not fall with the size of the cells.
-/// That is what the element is known for, and why the bound is one from both sides.
+/// Cells of random shape: the alternating part of the pressure is bounded, but it does not fall with the size of the
+/// cells. That is what the element is known for, and why the bound is one from both sides.
 #[test]
 fn pressure_alternates_on_irregular_meshes_only() {
     for (name, problem) in FAMILIES {

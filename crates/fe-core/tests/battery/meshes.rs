@@ -286,10 +286,8 @@ fn meshes_of_different_symmetry_do_not_mix() {
     let plate = RectangleMesh::uniform([2.0; 2], [3.0; 2], [1; 2])
         .generate("b")
         .unwrap();
-    let ring = Mesh {
-        symmetry: Symmetry::Axisymmetric,
-        ..plate.clone()
-    };
+    let mut ring = plate.clone();
+    ring.symmetry = Symmetry::Axisymmetric;
     for (mut first, second) in [(cube, plate.clone()), (plate.clone(), ring.clone())] {
         let before = first.clone();
         let error = first.append("more", second).unwrap_err();

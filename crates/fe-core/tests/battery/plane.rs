@@ -77,7 +77,7 @@ proptest! {
             let size = 1.0 / kind.degree() as f64;
             let u: Vec<f64> = u[..2 * mesh.points.len()].iter().map(|u| size * u).collect();
             for symmetry in SYMMETRIES {
-                let mesh = with_symmetry(&mesh, symmetry);
+                let mesh = with_symmetry(&mesh, symmetry).validated().unwrap();
                 let metal = SaintVenantKirchhoff::new(elastic).unwrap();
                 for block in [
                     solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap(),
@@ -105,9 +105,11 @@ fn cells_on_the_axis_pass_the_battery() {
         for &n in mesh.node_set("x_min").unwrap() {
             u[2 * n as usize] = 0.0;
         }
+        let mesh = mesh.validated().unwrap();
         let block = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
         conformance::check_block(block.as_ref(), &mesh.points, &u).unwrap();
-        conformance::check_mass(&common::solid(mesh, blatz_ko(), 3.0), 3.0 * PI).unwrap();
+        conformance::check_mass(&common::solid(mesh.into_inner(), blatz_ko(), 3.0), 3.0 * PI)
+            .unwrap();
     }
 }
 
@@ -286,11 +288,8 @@ fn tube(kind: CellKind, cells: usize, elastic: ElasticConstants) -> Vec<(f64, f6
         .generate("tube")
         .unwrap();
     mesh.symmetry = Symmetry::Axisymmetric;
-    let pressure = DeadTraction {
-        facets: mesh.facet_set("x_min").unwrap().to_vec(),
-        traction: Vector3::x(),
-        factor: Table::constant(1.0),
-    };
+    let inner = mesh.facet_set("x_min").unwrap().to_vec();
+    let pressure = DeadTraction::new(inner, Vector3::x(), Table::constant(1.0));
     let load = pressure.nodal_forces(&mesh).unwrap();
     assert!((load.iter().sum::<f64>() - TAU * 0.5).abs() < 1e-14);
     let solid = common::solid(mesh, SaintVenantKirchhoff::new(elastic).unwrap(), 1.0);
@@ -367,15 +366,19 @@ fn matter_behind_the_axis_is_inverted() {
 #[test]
 fn blocks_of_another_symmetry_are_refused() {
     let mesh = distorted_rectangle([2, 2], CellKind::Quad4, 0.0, false);
-    let block = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     let rings = with_symmetry(&mesh, Symmetry::Axisymmetric);
+    let in_space = with_symmetry(&mesh, Symmetry::None);
+    let (mesh, rings) = (mesh.validated().unwrap(), rings.validated().unwrap());
+    let block = solid_block(&mesh, 0, blatz_ko(), 1.0).unwrap();
     let error = Solid::new(rings, vec![block]).unwrap_err();
     assert!(
         matches!(error, FeError::Mesh(MeshError::Symmetry { .. })),
         "{error}"
     );
-    let in_space = with_symmetry(&mesh, Symmetry::None);
-    assert!(solid_block(&in_space, 0, blatz_ko(), 1.0).is_err());
+    assert!(matches!(
+        in_space.validated(),
+        Err(MeshError::Dimension { dim: 2, .. })
+    ));
 }
 
 #[test]
@@ -390,34 +393,23 @@ fn loads_and_supports_have_two_components() {
         ),
     ] {
         let mesh = with_symmetry(&flat, symmetry);
-        let pull = DeadTraction {
-            facets: mesh.facet_sets["y_max"].clone(),
-            traction: Vector3::new(2.0, -3.0, 99.0),
-            factor: Table::constant(1.0),
-        };
+        let (top, once) = (mesh.facet_sets["y_max"].clone(), Table::constant(1.0));
+        let pull = DeadTraction::new(top, [2.0, -3.0, 99.0], once.clone());
         let f = pull.nodal_forces(&mesh).unwrap();
         for i in 0..2 {
             let total: f64 = f.iter().skip(i).step_by(2).sum();
             assert!((total - area * pull.traction[i]).abs() < 1e-13);
         }
-        let held = Dirichlet {
-            components: [false, true, true],
-            motion: Motion {
-                translation: [1.0, 2.0, 3.0].map(Table::constant),
-                ..Motion::still()
-            },
-            ..Dirichlet::clamped("base", mesh.node_sets["y_min"].clone())
-        };
+        let held = Dirichlet::clamped("base", mesh.node_sets["y_min"].clone())
+            .with_components([false, true, true])
+            .with_motion(Motion::translation([1.0, 2.0, 3.0].map(Table::constant)));
         let mut u = vec![0.0; 2 * mesh.points.len()];
         held.set_displacement(&mesh, 0.0, &mut u);
         let dofs: Vec<usize> = held.dofs(2).collect();
         assert_eq!(dofs, [1, 3, 5, 7]);
         assert!((0..u.len()).all(|dof| u[dof] == if dofs.contains(&dof) { 2.0 } else { 0.0 }));
         let solid = common::solid(mesh, BlatzKo::new(1.0).unwrap(), 40.0);
-        let gravity = Gravity {
-            acceleration: Vector3::new(0.5, -9.81, 99.0),
-            factor: Table::constant(1.0),
-        };
+        let gravity = Gravity::new([0.5, -9.81, 99.0], once);
         let weight = gravity.nodal_forces(&solid.lumped_mass()).unwrap();
         assert_eq!(weight.len(), 2 * solid.node_count());
         let total: f64 = weight.iter().skip(1).step_by(2).sum();
@@ -429,6 +421,7 @@ fn loads_and_supports_have_two_components() {
 #[test]
 fn plane_tangents_have_no_force_under_a_shift() {
     let mesh = distorted_rectangle([2, 2], CellKind::Quad4, 0.2, true);
+    let mesh = mesh.validated().unwrap();
     let block = solid_block(&mesh, 0, neo_hookean(), 1.0).unwrap();
     let u = common::wave(&mesh, 0.05);
     let (mut f, mut w) = (vec![0.0; 32], vec![0.0; 4]);

@@ -3,7 +3,7 @@
 use fe_core::conformance;
 use fe_core::{Block, ElementState, tangent_index, tangent_len};
 use fe_core::{
-    CellKind, Dilatation, FeError, Mesh, RectangleMesh, Solid, Symmetry, solid_block_with,
+    CellKind, Dilatation, FeError, RectangleMesh, Solid, Symmetry, ValidMesh, solid_block_with,
 };
 use hyperelastic::{ElasticConstants, Material, SaintVenantKirchhoff, ThreeE};
 use nalgebra::{Matrix3, Vector3};
@@ -24,21 +24,21 @@ const BLOCKS: [(CellKind, Symmetry, usize); 8] = [
 ];
 
 /// Curved cells if they can be.
-fn distorted(kind: CellKind, symmetry: Symmetry, cells: usize, boundary: bool) -> Mesh {
+fn distorted(kind: CellKind, symmetry: Symmetry, cells: usize, boundary: bool) -> ValidMesh {
     let mut mesh = if kind.dim() == 3 {
         distorted_box([cells, 1, 1], kind, 0.15, boundary)
     } else {
         distorted_rectangle([cells, cells], kind, 0.2, boundary)
     };
     mesh.symmetry = symmetry;
-    common::curved(mesh, 0.02)
+    common::curved(mesh, 0.02).validated().unwrap()
 }
 
-fn projected<M: Material>(mesh: &Mesh, material: M) -> Box<dyn Block> {
+fn projected<M: Material>(mesh: &ValidMesh, material: M) -> Box<dyn Block> {
     solid_block_with(mesh, 0, material, 1.0, Dilatation::Projected).unwrap()
 }
 
-fn laws(mesh: &Mesh, dilatation: Dilatation) -> [Box<dyn Block>; 4] {
+fn laws(mesh: &ValidMesh, dilatation: Dilatation) -> [Box<dyn Block>; 4] {
     let elastic = ElasticConstants::from_shear_poisson(1.0, 0.45).unwrap();
     let metal = SaintVenantKirchhoff::new(elastic).unwrap();
     let foam = ThreeE::new(elastic, [0.5, 0.4, 0.3, 0.6, 0.2]).unwrap();
@@ -95,6 +95,8 @@ fn patch_test_on_distorted_meshes() {
     for (kind, symmetry, _) in BLOCKS {
         let mesh = if kind.dim() == 3 {
             distorted_box([2, 2, 2], kind, 0.2, false)
+                .validated()
+                .unwrap()
         } else {
             distorted(kind, symmetry, 4, false)
         };
@@ -159,6 +161,7 @@ fn dilatation_of_linear_elements_is_their_mean() {
 fn plane_strain_is_a_sheet_of_hexahedra_with_z_held() {
     let plane = distorted_rectangle([3, 4], CellKind::Quad4, 0.2, true);
     let (nodes, sheet) = (plane.points.len(), crate::plane::sheet(&plane));
+    let (plane, sheet) = (plane.validated().unwrap(), sheet.validated().unwrap());
     let u = common::wave(&plane, 0.08);
     let layer: Vec<f64> = u.chunks(2).flat_map(|u| [u[0], u[1], 0.0]).collect();
     let in_space = [layer.clone(), layer].concat();
@@ -204,6 +207,7 @@ fn linear_dilatation_passes_second_order_cells_unchanged() {
             Symmetry::None,
         ),
     ] {
+        let mesh = mesh.validated().unwrap();
         // J = 1 + .2 x - .1 y
         let map = |x: &Vector3<f64>| [0.1 * x[0] * x[0] - 0.1 * x[0] * x[1], 0.0, 0.0];
         let u: Vec<f64> = (mesh.points.iter())
@@ -281,6 +285,7 @@ fn cells_on_the_axis_pass_the_battery() {
         .generate("bar")
         .unwrap();
     mesh.symmetry = Symmetry::Axisymmetric;
+    let mesh = mesh.validated().unwrap();
     let mut u = common::wave(&mesh, 0.05);
     for &n in mesh.node_set("x_min").unwrap() {
         u[2 * n as usize] = 0.0;
@@ -297,7 +302,9 @@ fn elements_of_one_point_cannot_be_projected() {
         ),
         (
             CellKind::Tet4,
-            distorted_box([1; 3], CellKind::Tet4, 0.0, false),
+            distorted_box([1; 3], CellKind::Tet4, 0.0, false)
+                .validated()
+                .unwrap(),
         ),
     ] {
         let error = solid_block_with(&mesh, 0, blatz_ko(), 1.0, Dilatation::Projected).unwrap_err();

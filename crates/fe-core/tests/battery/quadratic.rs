@@ -3,8 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use fe_core::{
-    AnnulusMesh, BoxMesh, CellKind, DiscMesh, Facet, FacetKind, HalfBallMesh, HalfDiscMesh, Mesh,
-    MeshError, Pole, QuarterDiscMesh, RectangleMesh, Surface, Symmetry,
+    AnnulusMesh, BoxMesh, CellKind, DiscMesh, Element, Facet, FacetKind, HalfBallMesh,
+    HalfDiscMesh, Mesh, MeshError, Pole, Quad9, QuarterDiscMesh, RectangleMesh, Surface, Symmetry,
+    Tri6,
 };
 use nalgebra::Vector3;
 
@@ -194,11 +195,9 @@ fn a_half_ball_of_tetrahedra_is_refused() {
 /// Flat faces with known integrals, in units of a ninth, sixth or third of their area.
 #[test]
 fn integrals_of_shape_functions_on_flat_faces() {
-    let mesh = |symmetry, points: &[[f64; 3]]| Mesh {
-        dim: 3,
-        symmetry,
-        points: points.iter().map(|&x| x.into()).collect(),
-        ..Mesh::default()
+    let mesh = |symmetry, points: &[[f64; 3]]| {
+        let points = points.iter().map(|&x| x.into()).collect();
+        Mesh::new(symmetry, points, Vec::new())
     };
     let close = |found: &[f64], expected: &[f64]| {
         for (found, expected) in found.iter().zip(expected) {
@@ -209,13 +208,16 @@ fn integrals_of_shape_functions_on_flat_faces() {
         let nodes = 0..kind.node_count() as u32;
         Surface::new(vec![Facet::new(kind, nodes)]).unwrap()
     };
-    let square = fe_core::element::quad9::REFERENCE_NODES.map(|x| [1.5 * x[0], 3.0 * x[1], 7.0]);
+    let placed = |nodes: &[[f64; 3]], place: fn(&[f64; 3]) -> [f64; 3]| -> Vec<[f64; 3]> {
+        nodes.iter().map(place).collect()
+    };
+    let square = placed(Quad9::reference_nodes(), |x| [1.5 * x[0], 3.0 * x[1], 7.0]);
     let quad = surface(FacetKind::Quad9);
     let square = mesh(Symmetry::None, &square);
     let expected = [0.5, 0.5, 0.5, 0.5, 2.0, 2.0, 2.0, 2.0, 8.0];
     close(&quad.shape_integrals(&square), &expected);
     assert_eq!(quad.shape_integrals(&square), quad.tributary_areas(&square));
-    let corner = fe_core::element::tri6::REFERENCE_NODES.map(|x| [0.0, 2.0 * x[0], 3.0 * x[1]]);
+    let corner = placed(Tri6::reference_nodes(), |x| [0.0, 2.0 * x[0], 3.0 * x[1]]);
     let (triangle, corner) = (surface(FacetKind::Tri6), mesh(Symmetry::None, &corner));
     close(
         &triangle.shape_integrals(&corner),

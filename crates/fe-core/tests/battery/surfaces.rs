@@ -71,10 +71,8 @@ proptest! {
     fn normals_turn_with_the_body(angle in -3.0..3.0_f64, axis in prop::array::uniform3(0.1..1.0_f64)) {
         let mesh = unit_box(CellKind::Tet4, [2, 2, 2]);
         let surface = Surface::new(mesh.boundary_facets()).unwrap();
-        let turn = Motion {
-            rotation: Some(Rotation::new([1.0, 2.0, 3.0], axis, Table::constant(angle)).unwrap()),
-            ..Motion::still()
-        };
+        let turn = Rotation::new([1.0, 2.0, 3.0], axis, Table::constant(angle)).unwrap();
+        let turn = Motion::still().with_rotation(turn);
         let u: Vec<f64> = mesh.points.iter().flat_map(|&x| <[f64; 3]>::from(turn.displacement(x, 0.0))).collect();
         let mut moved = Vec::new();
         current_positions(&mesh.points, 3, &u, &mut moved);
@@ -112,12 +110,8 @@ fn facets_around_nodes_are_those_that_have_them() {
 #[test]
 fn plane_surfaces_are_edges() {
     // Lower side of a body above it: from left to right, the body to the left of the way.
-    let mut mesh = Mesh {
-        dim: 2,
-        symmetry: Symmetry::PlaneStrain,
-        points: [0.0, 1.0, 3.0].map(|x| Vector3::new(x, 0.0, 0.0)).to_vec(),
-        ..Mesh::default()
-    };
+    let points = [0.0, 1.0, 3.0].map(|x| Vector3::new(x, 0.0, 0.0));
+    let mut mesh = Mesh::new(Symmetry::PlaneStrain, points.to_vec(), Vec::new());
     let surface = Surface::new(vec![Facet::edge([0, 1]), Facet::edge([1, 2])]).unwrap();
     assert_eq!(surface.dim(), 2);
     assert_eq!(surface.tributary_areas(&mesh), [0.5, 1.5, 1.0]);

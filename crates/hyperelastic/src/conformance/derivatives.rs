@@ -35,8 +35,8 @@ pub(super) fn by_dual_numbers<M: Material>(
     Ok(Derivatives { stress, tangent })
 }
 
-/// Step of the central differences in a component of `C` \[-\]: the cube root of round-off, where truncation and round-off
-/// are about equal.
+/// Step of the central differences in a component of `C` \[-\]: the cube root of round-off, where truncation and
+/// round-off are about equal.
 const STEP: f64 = 1e-5;
 
 /// `S` from differences of `energy`, `D` from differences of `stress`.

@@ -85,6 +85,7 @@ pub enum Violation {
 
 /// Which number of a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Component {
     /// `W`.
     Energy,

@@ -80,7 +80,8 @@ proptest! {
         check_homogeneous(&neo_hookean(g, lame), &stretched([l; 3]), &first_piola([p; 3]), 1e-13)?;
     }
 
-    /// Along the axis of uniaxial strain `e` the invariants are `x = sqrt(2/3) e`, `y = 0`, `z = e/sqrt 3`, and `S_11 = dW/de`.
+    /// Along the axis of uniaxial strain `e` the invariants are `x = sqrt(2/3) e`, `y = 0`, `z = e/sqrt 3`, and
+    /// `S_11 = dW/de`.
     #[test]
     fn three_e_uniaxial_strain(law in any_three_e(), l in 0.3..3.0) {
         let [a1, a2, a3, a4, a5] = law.parameters();

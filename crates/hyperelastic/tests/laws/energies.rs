@@ -87,7 +87,8 @@ fn three_e_with_coupling_is_not_convex_at_large_strain() {
     assert!(soft);
 }
 
-/// What energy-conserving schemes divide: `(W1 - W0)/|E1 - E0|` stays a derivative for steps far below the square root of round-off.
+/// What energy-conserving schemes divide: `(W1 - W0)/|E1 - E0|` stays a derivative for steps far below the square root
+/// of round-off.
 #[test]
 fn energy_differences_are_derivatives_near_the_reference() {
     fn error(law: &impl Material) -> f64 {

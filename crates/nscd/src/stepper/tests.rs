@@ -10,6 +10,7 @@ fn model(theta: f64, xi: f64, damping: Rayleigh) -> Model {
     let mesh = BoxMesh::uniform([0.0; 3], [1.0, 1.0, 2.0], [1, 1, 2])
         .generate("block")
         .unwrap();
+    let mesh = mesh.validated().unwrap();
     let law = NeoHookean::new(ElasticConstants::from_shear_lame(2.0, 3.0).unwrap()).unwrap();
     let block = solid_block(&mesh, 0, law, 1.5).unwrap();
     let held = mesh.node_sets["z_min"].clone();

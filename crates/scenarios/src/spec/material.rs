@@ -1,6 +1,6 @@
 //! Materials.
 
-use fe_core::{Block, Dilatation, FeError, Mesh, solid_block_with};
+use fe_core::{Block, Dilatation, FeError, ValidMesh, solid_block_with};
 use hyperelastic::{ElasticConstants, ParameterError};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -95,7 +95,7 @@ pub(crate) trait BuiltLaw {
     /// A block of the law on the block `index` of the mesh; `density` \[kg/m^3\].
     fn block(
         &self,
-        mesh: &Mesh,
+        mesh: &ValidMesh,
         index: usize,
         density: f64,
         dilatation: Dilatation,
@@ -105,7 +105,7 @@ pub(crate) trait BuiltLaw {
 impl<M: hyperelastic::Material> BuiltLaw for M {
     fn block(
         &self,
-        mesh: &Mesh,
+        mesh: &ValidMesh,
         index: usize,
         density: f64,
         dilatation: Dilatation,
@@ -231,10 +231,7 @@ const PAIRS: &str =
 
 impl From<ParameterError> for LawError {
     fn from(error: ParameterError) -> Self {
-        let (ParameterError::NotFinite { parameter, .. }
-        | ParameterError::OutsideOpen { parameter, .. }
-        | ParameterError::OutsideClosed { parameter, .. }) = error;
-        // The letter of a parameter is the last word of its name: "shear modulus G".
+        let parameter = error.parameter();
         let field = parameter.rsplit(' ').next().unwrap_or(parameter);
         LawError {
             field: field.to_owned(),

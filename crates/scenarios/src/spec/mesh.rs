@@ -95,7 +95,7 @@ fn grid(
     crown: Option<f64>,
     name: &str,
 ) -> Result<fe_core::Mesh, MeshError> {
-    let grid = GridMesh { axes, refine, kind };
+    let grid = GridMesh::new(axes, kind).with_refine(refine);
     match crown {
         Some(radius) => grid.generate_crowned(name, radius),
         None => grid.generate(name),

@@ -103,10 +103,8 @@ fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
 
 fn turned(axis: Vector3<f64>, angle: f64, shift: Vector3<f64>) -> Motion {
     let constant = Table::constant;
-    Motion {
-        translation: <[f64; 3]>::from(shift).map(constant),
-        rotation: Some(Rotation::new([0.3, 0.1, -0.2], axis, constant(angle)).unwrap()),
-    }
+    Motion::translation(<[f64; 3]>::from(shift).map(constant))
+        .with_rotation(Rotation::new([0.3, 0.1, -0.2], axis, constant(angle)).unwrap())
 }
 
 proptest! {

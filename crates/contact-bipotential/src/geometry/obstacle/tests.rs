@@ -43,9 +43,9 @@ fn table() -> impl Strategy<Value = Table> {
 
 fn motion() -> impl Strategy<Value = Motion> {
     ([table(), table(), table()], vector(2.0), axis(), table()).prop_map(
-        |(translation, point, axis, angle)| Motion {
-            translation,
-            rotation: Some(Rotation::new(point, axis, angle).unwrap()),
+        |(translation, point, axis, angle)| {
+            Motion::translation(translation)
+                .with_rotation(Rotation::new(point, axis, angle).unwrap())
         },
     )
 }
@@ -364,9 +364,8 @@ fn obstacles_that_leave_the_plane_say_why() {
             "{reason}"
         );
     }
-    let turn = |axis| Motion {
-        rotation: Some(Rotation::new(point, axis, Table::constant(0.3)).unwrap()),
-        ..still()
+    let turn = |axis: Vector3<f64>| {
+        still().with_rotation(Rotation::new(point, axis, Table::constant(0.3)).unwrap())
     };
     let lift = |z| Motion::translation([1.0, 2.0, z].map(Table::constant));
     for motion in [turn(z), turn(Vector3::new(0.0, 0.0, -3.0)), lift(0.0)] {

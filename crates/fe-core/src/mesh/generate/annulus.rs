@@ -16,8 +16,8 @@ use crate::symmetry::Symmetry;
 
 /// A plane ring of quadrilaterals, or each cut into two triangles.
 ///
-/// Nodes are numbered counter-clockwise from the x axis, from the inner rim outwards. Sides are `inner` and `outer`, their
-/// nodes equally spaced. Nodes that quadratic cells add between two of a radius have that radius too.
+/// Nodes are numbered counter-clockwise from the x axis, from the inner rim outwards. Sides are `inner` and `outer`,
+/// their nodes equally spaced. Nodes that quadratic cells add between two of a radius have that radius too.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

@@ -74,6 +74,7 @@ impl GridPiece {
 
 impl GridAxis {
     /// One piece of `cells` cells from `min` to `max` \[m\]; `grading` is the size of the last over that of the first.
+    #[must_use]
     pub fn graded(min: f64, max: f64, cells: usize, grading: f64) -> GridAxis {
         let piece = GridPiece::Cells {
             to: max,
@@ -160,6 +161,13 @@ impl GridAxis {
     }
 }
 
+/// By how little a number of cells may exceed a whole one without another cell \[-\]: a length made for a whole number
+/// of cells shall get that number, whatever the round-off.
+const WHOLE_CELLS: f64 = 1e-9;
+
+/// Bisections of an interval of size 1 or so: far more than the 53 that leave two neighbouring numbers.
+const BISECTIONS: usize = 200;
+
 /// A geometric sequence of cells.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Run {
@@ -191,8 +199,7 @@ impl Run {
         } else {
             (length * (log.exp_m1() / growth)).ln_1p() / log
         };
-        // A length made for a whole number of cells shall get that number.
-        let cells = (exact - 1e-9).ceil().max(1.0);
+        let cells = (exact - WHOLE_CELLS).ceil().max(1.0);
         Run {
             from,
             to,
@@ -241,7 +248,7 @@ fn log_ratio_filling(length: f64, cells: f64, bound: f64) -> f64 {
     };
     // More than one cell is needed, so the length is above 1, and the sum at -1 is below.
     let (mut low, mut high) = (-1.0, bound);
-    for _ in 0..200 {
+    for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         if sum(middle) < length {
             low = middle;

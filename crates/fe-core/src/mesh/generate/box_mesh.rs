@@ -2,9 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::axis::GridAxis;
+use super::check_kind;
 use super::grid::GridMesh;
-use super::{check_grid, check_kind};
 use crate::element::CellKind;
 use crate::mesh::Mesh;
 use crate::mesh::MeshError;
@@ -13,8 +12,8 @@ use crate::mesh::text::{Deserialize, Serialize, hexahedra, point, solid, uniform
 
 /// A box of `cells[0] x cells[1] x cells[2]` bricks, each one hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest, those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`,
-/// `y_max`, `z_min`, `z_max` and the node set `all`.
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. The mesh has node and facet sets
+/// `x_min`, `x_max`, `y_min`, `y_max`, `z_min`, `z_max` and the node set `all`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -43,6 +42,7 @@ pub struct BoxMesh {
 
 impl BoxMesh {
     /// A box of equal hexahedra.
+    #[must_use]
     pub fn uniform(
         min: impl Into<Vector3<f64>>,
         max: impl Into<Vector3<f64>>,
@@ -58,6 +58,7 @@ impl BoxMesh {
     }
 
     /// The same box with another kind of cells.
+    #[must_use]
     pub fn with_kind(self, kind: CellKind) -> BoxMesh {
         BoxMesh { kind, ..self }
     }
@@ -78,14 +79,7 @@ impl BoxMesh {
     /// more nodes than 32-bit indices can address; [`MeshError::CellDimension`] for plane cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         check_kind(block, self.kind, 3)?;
-        let (min, max) = (self.min.as_slice(), self.max.as_slice());
-        check_grid("box", min, max, &self.cells, &self.grading)?;
-        let axis = |i| GridAxis::graded(self.min[i], self.max[i], self.cells[i], self.grading[i]);
-        let grid = GridMesh {
-            axes: (0..3).map(axis).collect(),
-            refine: 1,
-            kind: self.kind,
-        };
-        grid.generate(block)
+        let corners = [self.min.as_slice(), self.max.as_slice()];
+        GridMesh::between("box", corners, &self.cells, &self.grading, self.kind)?.generate(block)
     }
 }

@@ -12,7 +12,8 @@ use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals};
 
 /// A disc of quadrilaterals around a square core, or each cut into two triangles.
 ///
-/// The side is `rim`, its nodes equally spaced and on the circle, also those of quadratic cells; the node set `center` is the node nearest to the centre.
+/// The side is `rim`, its nodes equally spaced and on the circle, also those of quadratic cells; the node set `center`
+/// is the node nearest to the centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",

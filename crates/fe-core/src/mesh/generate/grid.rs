@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::axis::GridAxis;
 use super::{
-    check_kind, name_side, of_degree, require, require_indices, require_positive, single_block,
-    triangles,
+    check_grid, check_kind, cut_grid, name_side, of_degree, require, require_indices,
+    require_positive, single_block,
 };
 use crate::element::CellKind;
 use crate::mesh::Mesh;
@@ -15,9 +15,10 @@ use crate::symmetry::Symmetry;
 /// A rectilinear mesh in the plane (two axes) or in space (three): each cell of the grid is a quadrilateral or two
 /// triangles, a hexahedron or six tetrahedra.
 ///
-/// Nodes are numbered with x fastest, then y; those that quadratic cells add come after them. The mesh has node and facet sets `x_min`, `x_max`, `y_min`, `y_max`, in
-/// space also `z_min`, `z_max`, and the node set `all`.
+/// Nodes are numbered with x fastest, then y; those that quadratic cells add come after them. The mesh has node and
+/// facet sets `x_min`, `x_max`, `y_min`, `y_max`, in space also `z_min`, `z_max`, and the node set `all`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct GridMesh {
     /// Lines along x, y, and in space z.
     pub axes: Vec<GridAxis>,
@@ -27,20 +28,39 @@ pub struct GridMesh {
     pub kind: CellKind,
 }
 
-/// The six tetrahedra of a brick around its diagonal 0-6. The same split in each brick makes the faces of
-/// neighbours fit (Kuhn's triangulation).
-const TETRAHEDRA: [[usize; 4]; 6] = [
-    [0, 1, 2, 6],
-    [0, 2, 3, 6],
-    [0, 3, 7, 6],
-    [0, 7, 4, 6],
-    [0, 4, 5, 6],
-    [0, 5, 1, 6],
-];
-
 const SIDES: [[&str; 2]; 3] = [["x_min", "x_max"], ["y_min", "y_max"], ["z_min", "z_max"]];
 
 impl GridMesh {
+    /// Cells of one kind between the lines of these axes, not refined.
+    #[must_use]
+    pub fn new(axes: Vec<GridAxis>, kind: CellKind) -> GridMesh {
+        GridMesh {
+            axes,
+            refine: 1,
+            kind,
+        }
+    }
+
+    /// With each cell of each axis divided into this many.
+    #[must_use]
+    pub fn with_refine(mut self, refine: usize) -> GridMesh {
+        self.refine = refine;
+        self
+    }
+
+    /// A rectangle or a box: axes of one piece each, checked.
+    pub(super) fn between(
+        shape: &'static str,
+        [min, max]: [&[f64]; 2],
+        cells: &[usize],
+        grading: &[f64],
+        kind: CellKind,
+    ) -> Result<GridMesh, MeshError> {
+        check_grid(shape, min, max, cells, grading)?;
+        let axis = |i| GridAxis::graded(min[i], max[i], cells[i], grading[i]);
+        Ok(GridMesh::new((0..min.len()).map(axis).collect(), kind))
+    }
+
     /// Builds the mesh; its only block gets the name `block`.
     ///
     /// # Errors
@@ -69,17 +89,12 @@ impl GridMesh {
         let points = points(&lines);
         let count = lines.map(|lines| lines.len());
         let kind = self.kind.linear();
-        let cells = match self.kind {
-            CellKind::Quad4 | CellKind::Quad9 => quads(count),
-            CellKind::Tri3 | CellKind::Tri6 => triangles(&points, &quads(count)),
-            CellKind::Tet4 | CellKind::Tet10 => tetrahedra(&bricks(count)),
-            CellKind::Hex8 | CellKind::Hex27 => bricks(count),
-        };
-        let symmetry = if dim == 2 {
-            Symmetry::PlaneStrain
+        let (symmetry, grid_cells) = if dim == 2 {
+            (Symmetry::PlaneStrain, quads(count))
         } else {
-            Symmetry::None
+            (Symmetry::None, bricks(count))
         };
+        let cells = cut_grid(kind, &points, &grid_cells);
         let mut mesh = single_block(symmetry, points, block, kind, cells);
         let boundary = mesh.boundary_facets();
         let stride = [1, count[0], count[0] * count[1]];
@@ -92,9 +107,9 @@ impl GridMesh {
         of_degree(self.kind.degree(), mesh)
     }
 
-    /// The mesh with a crowned top: the side `y_max` (`z_max` in space) bends down by `r^2 / (2 radius)` at the distance
-    /// `r` from x = 0 (x = y = 0), the pole of a cylinder (ball) of this `radius` \[m\]; what lies below follows in
-    /// proportion to its height, and the opposite side stays flat.
+    /// The mesh with a crowned top: the side `y_max` (`z_max` in space) bends down by `r^2 / (2 radius)` at the
+    /// distance `r` from x = 0 (x = y = 0), the pole of a cylinder (ball) of this `radius` \[m\]; what lies below
+    /// follows in proportion to its height, and the opposite side stays flat.
     ///
     /// # Errors
     /// Those of [`GridMesh::generate`], and [`MeshError::Shape`] for a radius that is not positive or so small that the
@@ -162,18 +177,4 @@ fn bricks(count: [usize; 3]) -> Vec<u32> {
         }
     }
     cells
-}
-
-fn tetrahedra(bricks: &[u32]) -> Vec<u32> {
-    let split = |brick: &[u32]| {
-        TETRAHEDRA
-            .as_flattened()
-            .iter()
-            .map(|&a| brick[a])
-            .collect()
-    };
-    bricks
-        .chunks_exact(8)
-        .flat_map(|brick| -> Vec<u32> { split(brick) })
-        .collect()
 }

@@ -122,7 +122,8 @@ fn faces_rim(facet: &Facet, xi: &[Vector3<f64>]) -> bool {
     (0..3).any(|i| side(i, 1.0) || side(i, -1.0))
 }
 
-/// Place of a core point in the unit circle or ball: between a square (cube) and the circle (sphere) through its corners.
+/// Place of a core point in the unit circle or ball: between a square (cube) and the circle (sphere) through its
+/// corners.
 fn core_point(xi: &Vector3<f64>, dim: usize) -> Vector3<f64> {
     let flat = 1.0 / (dim as f64).sqrt();
     let bulged = |coordinates: f64| CORE * (flat + BULGE * (1.0 / coordinates.sqrt() - flat));

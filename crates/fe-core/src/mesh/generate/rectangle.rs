@@ -1,8 +1,7 @@
 //! Rectangles.
 
-use super::axis::GridAxis;
+use super::check_kind;
 use super::grid::GridMesh;
-use super::{check_grid, check_kind};
 use crate::element::CellKind;
 use crate::mesh::Mesh;
 use crate::mesh::MeshError;
@@ -11,7 +10,8 @@ use crate::mesh::text::{Deserialize, Serialize, plane, quadrilaterals, uniform};
 
 /// A rectangle of `cells[0] x cells[1]` quadrilaterals, or each cut into two triangles.
 ///
-/// Nodes are numbered with x fastest, those that quadratic cells add come after them. Sides are `x_min`, `x_max`, `y_min`, `y_max`.
+/// Nodes are numbered with x fastest, those that quadratic cells add come after them. Sides are `x_min`, `x_max`,
+/// `y_min`, `y_max`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -38,6 +38,7 @@ pub struct RectangleMesh {
 
 impl RectangleMesh {
     /// A rectangle of equal quadrilaterals.
+    #[must_use]
     pub fn uniform(min: [f64; 2], max: [f64; 2], cells: [usize; 2]) -> RectangleMesh {
         RectangleMesh {
             min,
@@ -49,6 +50,7 @@ impl RectangleMesh {
     }
 
     /// The same rectangle with another kind of cells.
+    #[must_use]
     pub fn with_kind(self, kind: CellKind) -> RectangleMesh {
         RectangleMesh { kind, ..self }
     }
@@ -69,19 +71,8 @@ impl RectangleMesh {
     /// with more nodes than 32-bit indices can address; [`MeshError::CellDimension`] for solid cells.
     pub fn generate(&self, block: &str) -> Result<Mesh, MeshError> {
         check_kind(block, self.kind, 2)?;
-        check_grid(
-            "rectangle",
-            &self.min,
-            &self.max,
-            &self.cells,
-            &self.grading,
-        )?;
-        let axis = |i| GridAxis::graded(self.min[i], self.max[i], self.cells[i], self.grading[i]);
-        let grid = GridMesh {
-            axes: (0..2).map(axis).collect(),
-            refine: 1,
-            kind: self.kind,
-        };
-        grid.generate(block)
+        let corners: [&[f64]; 2] = [&self.min, &self.max];
+        let (cells, grading) = (&self.cells, &self.grading);
+        GridMesh::between("rectangle", corners, cells, grading, self.kind)?.generate(block)
     }
 }

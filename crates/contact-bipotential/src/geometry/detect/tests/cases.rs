@@ -218,10 +218,8 @@ fn obstacles_move_and_hold_at_any_depth() {
 #[test]
 fn a_turning_plane_keeps_its_frame() {
     let spin = Table::new(vec![(0.0, 0.0), (1.0, 2.0)], Interpolation::Linear).unwrap();
-    let motion = Motion {
-        rotation: Some(Rotation::new([0.0; 3], [0.0, 0.0, 1.0], spin).unwrap()),
-        ..Motion::still()
-    };
+    let turn = Rotation::new([0.0; 3], [0.0, 0.0, 1.0], spin).unwrap();
+    let motion = Motion::still().with_rotation(turn);
     let plane = Shape::Plane {
         point: Vector3::zeros(),
         normal: Vector3::z(),
