@@ -18,7 +18,7 @@ pub struct Material {
 }
 
 struct_variants! {
-    /// Hyperelastic laws. A new one is a variant here, and an arm in [`Law::build`] and [`Law::elastic_constants`].
+    /// Hyperelastic laws. A new one is a variant here, and an arm in `Law::build` and in [`Law::elastic_constants`].
     #[derive(Clone, Debug, PartialEq, Serialize)]
     pub enum Law {
         /// Linear in the Green-Lagrange strain: small strains, large rotations.
