@@ -1,7 +1,7 @@
 //! One bond that breaks and heals over a cycle: `cargo run -p contact-bipotential --example bond`.
 //!
-//! A pair of points is pulled apart, pushed together and held: the law of Raous, Cangemi and Cocou with healing. The work that
-//! the cycle takes is what the bond dissipates.
+//! A pair of points is pulled apart, pushed together and held: the law of Raous, Cangemi and Cocou with healing. The
+//! work that the cycle takes is what the bond dissipates.
 
 use contact_bipotential::nalgebra::Vector3;
 use contact_bipotential::{Adhesion, Bond, BondStep, ParameterError};

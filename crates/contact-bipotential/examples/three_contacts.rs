@@ -1,7 +1,8 @@
-//! Three contacts of one rigid block, solved from `W`, `q` and `mu`: `cargo run -p contact-bipotential --example three_contacts`.
+//! Three contacts of one rigid block, solved from `W`, `q` and `mu`:
+//! `cargo run -p contact-bipotential --example three_contacts`.
 //!
-//! A block of mass 1 and side 2 stands on three feet and is pushed sideways. What a unit reaction at one foot does to the
-//! velocity of another is `W = H M^-1 H^T`; what the feet would do without reactions is `q`.
+//! A block of mass 1 and side 2 stands on three feet and is pushed sideways. What a unit reaction at one foot does to
+//! the velocity of another is `W = H M^-1 H^T`; what the feet would do without reactions is `q`.
 
 use contact_bipotential::nalgebra::{Matrix3, Matrix3x6, Matrix6, Vector3, Vector6};
 use contact_bipotential::{

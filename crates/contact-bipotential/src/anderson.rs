@@ -1,10 +1,13 @@
 //! Anderson's acceleration of a fixed-point sequence \[Anderson1965\].
 //!
-//! Where the steps of a sequence shrink by a nearly constant factor in a few directions, the combination of the last ones
-//! whose residuals cancel best takes these directions out, for a few scalar products. Nothing is to be believed because of
-//! it: who extrapolates measures the error of what comes out.
+//! Where the steps of a sequence shrink by a nearly constant factor in a few directions, the combination of the last
+//! ones whose residuals cancel best takes these directions out, for a few scalar products. Nothing is to be believed
+//! because of it: who extrapolates measures the error of what comes out.
 
-/// Part of the squared length of a residual difference that must be new to count \[-\]: the rest is round-off of the others.
+use crate::flat::{difference, dot};
+
+/// Part of the squared length of a residual difference that must be new to count \[-\]: the rest is round-off of the
+/// others.
 const NEW_PART: f64 = 1e-12;
 
 /// The last few steps of a sequence.
@@ -34,11 +37,11 @@ impl Anderson {
         self.differences.clear();
     }
 
-    /// Replaces the `iterate` that the sequence reached by the extrapolated one; false where it stays as it is, because there
-    /// is nothing yet to extrapolate from or the outcome is no number.
+    /// Replaces the `iterate` that the sequence reached by the extrapolated one; false where it stays as it is, because
+    /// there is nothing yet to extrapolate from or the outcome is no number.
     ///
-    /// `residual` belongs to the step that led to `iterate`: the step itself or a part of it, scaled to the norm in which the
-    /// residuals are to cancel. The two may differ in length; each must keep its own from call to call.
+    /// `residual` belongs to the step that led to `iterate`: the step itself or a part of it, scaled to the norm in
+    /// which the residuals are to cancel. The two may differ in length; each must keep its own from call to call.
     pub fn extrapolate(&mut self, iterate: &mut [f64], residual: &[f64]) -> bool {
         if let Some((last_iterate, last_residual)) = self.last.take() {
             if self.differences.len() == self.depth {
@@ -66,8 +69,8 @@ impl Anderson {
         finite
     }
 
-    /// Weights of the differences of residuals that come closest to `residual`, by modified Gram-Schmidt from the latest on;
-    /// directions that add nothing new are left out.
+    /// Weights of the differences of residuals that come closest to `residual`, by modified Gram-Schmidt from the
+    /// latest on; directions that add nothing new are left out.
     fn weights(&self, residual: &[f64]) -> Option<Vec<f64>> {
         let m = self.differences.len();
         let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::with_capacity(m);
@@ -95,14 +98,6 @@ impl Anderson {
         }
         (!basis.is_empty() && weights.iter().all(|w| w.is_finite())).then_some(weights)
     }
-}
-
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// `a -= s b`.

@@ -122,7 +122,17 @@ pub(crate) fn region<const D: usize>(mu: f64, v: &Vector<D>) -> Region {
 }
 
 /// Orthogonal projection on `K`.
+///
+/// ```
+/// use contact_bipotential::cone::project;
+/// use contact_bipotential::nalgebra::Vector2;
+///
+/// // (t, n) beside a cone with mu = 1, and below its apex.
+/// assert_eq!(project(1.0, &Vector2::new(2.0, 0.0)), Vector2::new(1.0, 1.0));
+/// assert_eq!(project(1.0, &Vector2::new(0.5, -1.0)), Vector2::zeros());
+/// ```
 #[inline]
+#[must_use]
 pub fn project<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
     let (t, n) = (tangential_norm(v), v[D - 1]);
     let mut p = Vector::zeros();
@@ -142,7 +152,18 @@ pub fn project<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
 }
 
 /// Orthogonal projection on the dual cone `K*`.
+///
+/// ```
+/// use contact_bipotential::cone::{project, project_dual};
+/// use contact_bipotential::nalgebra::Vector3;
+///
+/// // Moreau: every vector is a modified velocity less a reaction, at a right angle to each other.
+/// let v = Vector3::new(1.0, -2.0, 0.5);
+/// let (velocity, reaction) = (project_dual(0.3, &v), project(0.3, &-v));
+/// assert!((velocity - reaction - v).amax() < 1e-14 && velocity.dot(&reaction).abs() < 1e-14);
+/// ```
 #[inline]
+#[must_use]
 pub fn project_dual<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
     // Moreau: v = Proj_K*(v) - Proj_K(-v).
     project(mu, &-v) + v
@@ -150,6 +171,7 @@ pub fn project_dual<const D: usize>(mu: f64, v: &Vector<D>) -> Vector<D> {
 
 /// The modified velocity `u + mu |u_t| n`.
 #[inline(always)]
+#[must_use]
 pub fn modified_velocity<const D: usize>(mu: f64, u: &Vector<D>) -> Vector<D> {
     let mut v = *u;
     v[D - 1] += mu * tangential_norm(u);
@@ -160,7 +182,18 @@ pub fn modified_velocity<const D: usize>(mu: f64, u: &Vector<D>) -> Vector<D> {
 ///
 /// For `r` in `K` and `u_n >= 0` it is never negative, and zero exactly where `u` and `r` obey contact and friction
 /// \[deSaxce1998\]; outside those sets the bi-potential is infinite, so check them too.
+///
+/// ```
+/// use contact_bipotential::cone::bipotential_gap;
+/// use contact_bipotential::nalgebra::Vector3;
+///
+/// // Sliding along t1 with mu = 0.5: friction at its limit against the slip, then half of it.
+/// let u = Vector3::new(2.0, 0.0, 0.0);
+/// assert_eq!(bipotential_gap(0.5, &u, &Vector3::new(-0.5, 0.0, 1.0)), 0.0);
+/// assert_eq!(bipotential_gap(0.5, &u, &Vector3::new(-0.25, 0.0, 1.0)), 0.5);
+/// ```
 #[inline]
+#[must_use]
 pub fn bipotential_gap<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
     modified_velocity(mu, u).dot(r)
 }

@@ -11,11 +11,13 @@ use crate::law::Status;
 use crate::problem::ContactProblem;
 use crate::solve::Outcome;
 
-/// A rough, curved indenter pressed into an elastic half-space and dragged along: a full-rank `W`, as finite elements make it.
+/// A rough, curved indenter pressed into an elastic half-space and dragged along: a full-rank `W`, as finite elements
+/// make it.
 ///
 /// `side * side` contacts on a square of side 1, shear modulus 1, Poisson's ratio .3, compliances of Boussinesq and
-/// Cerruti, within a cell the mean over it. `depth` \[-\] is how far the indenter sinks at its centre, `drag` \[-\] how far
-/// it moves.
+/// Cerruti, within a cell the mean over it. `depth` \[-\] is how far the indenter sinks at its centre, `drag` \[-\] how
+/// far it moves.
+#[must_use]
 pub fn half_space(side: usize, mu: f64, depth: f64, drag: f64) -> ContactProblem {
     let n = side * side;
     let h = 1.0 / side as f64;
@@ -48,7 +50,8 @@ pub fn half_space(side: usize, mu: f64, depth: f64, drag: f64) -> ContactProblem
     }
 }
 
-/// Displacement of the surface at distance `x` from a unit force, by components; within a cell, that of a uniform patch.
+/// Displacement of the surface at distance `x` from a unit force, by components; within a cell, that of a uniform
+/// patch.
 fn half_space_compliance(x: [f64; 2], h: f64) -> [[f64; 3]; 3] {
     let nu = 0.3;
     let r = (x[0] * x[0] + x[1] * x[1]).sqrt();
@@ -81,6 +84,7 @@ fn half_space_compliance(x: [f64; 2], h: f64) -> [[f64; 3]; 3] {
 ///
 /// Bricks 2 x 1 x 1 of mass 1 in stretcher bond. `W = H^T M^-1 H` has rank at most `6 rows columns`, a quarter of its
 /// size; `push` is the sideways acceleration of the top row over gravity.
+#[must_use]
 pub fn brick_wall(rows: usize, columns: usize, mu: f64, push: f64) -> ContactProblem {
     let contacts = wall_contacts(rows, columns);
     let n = contacts.len();
@@ -177,6 +181,7 @@ fn wrench(arm: &[f64; 3], axis: &[f64; 3]) -> [f64; 6] {
 }
 
 /// The same problem in other units: `W` times `factor_w`, `q` times `factor_q`.
+#[must_use]
 pub fn scaled(problem: &ContactProblem, factor_w: f64, factor_q: f64) -> ContactProblem {
     let mut w = problem.w.to_dense();
     for j in 0..w.ncols() {
@@ -238,7 +243,8 @@ pub fn check_outcome(
     Ok(())
 }
 
-/// The law, contact by contact, in words a mechanician would use, with tolerances relative to the largest reaction and velocity.
+/// The law, contact by contact, in words a mechanician would use, with tolerances relative to the largest reaction and
+/// velocity.
 ///
 /// # Errors
 /// The first contact that breaks the law, and how.

@@ -16,6 +16,35 @@ pub use block_sparse::BlockSparse;
 pub type DenseMatrix = Mat<f64>;
 
 /// `W` that is only known by what it does to a vector.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use contact_bipotential::{Cone, ContactProblem, Delassus, DelassusOperator, SolveSettings, solve};
+///
+/// /// Contacts on springs of their own, compliance 2.
+/// #[derive(Debug)]
+/// struct Springs(usize);
+///
+/// impl DelassusOperator for Springs {
+///     fn size(&self) -> usize {
+///         self.0
+///     }
+///     fn apply(&self, r: &[f64], out: &mut [f64]) {
+///         out.iter_mut().zip(r).for_each(|(u, r)| *u = 2.0 * r);
+///     }
+///     fn diagonal_block(&self, _contact: usize, _dim: usize, out: &mut [f64]) {
+///         out[0] = 2.0;
+///     }
+/// }
+///
+/// let w = Delassus::Operator(Arc::new(Springs(2)));
+/// let problem = ContactProblem::new(w, vec![-1.0, 1.0], vec![0.0; 2], Cone::Frictionless)?;
+/// let mut r = Vec::new();
+/// assert!(solve(&problem, &mut r, &SolveSettings::default()).is_converged());
+/// assert!((r[0] - 0.5).abs() < 1e-9 && r[1].abs() < 1e-9);
+/// # Ok::<(), contact_bipotential::ContactError>(())
+/// ```
 pub trait DelassusOperator: Debug + Send + Sync {
     /// Size of `r` and `u`: cone dimension times contacts.
     fn size(&self) -> usize;
@@ -29,6 +58,7 @@ pub trait DelassusOperator: Debug + Send + Sync {
 ///
 /// Slightly unsymmetric and rank-deficient matrices are welcome.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub enum Delassus {
     /// All entries.
     Dense(DenseMatrix),

@@ -12,10 +12,10 @@ use crate::rcc::{BondPoint, BondStep};
 pub struct Errors {
     /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` \[-\]: the measure of Siconos. It mixes units.
     pub siconos: f64,
-    /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its compliance
-    /// `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` \[-\]. It does not depend on units, and reactions that
-    /// run away in a problem without solution do not make it small. Only where `F` is as small as the rounding of `W r`
-    /// makes it anyway does `|r|` count in the denominator.
+    /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its
+    /// compliance `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` \[-\]. It does not depend on units,
+    /// and reactions that run away in a problem without solution do not make it small. Only where `F` is as small as
+    /// the rounding of `W r` makes it anyway does `|r|` count in the denominator.
     pub scale_free: f64,
     /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm \[-\].
     pub gap: f64,
@@ -23,7 +23,7 @@ pub struct Errors {
 
 impl Errors {
     /// The error of something that is no candidate at all.
-    pub const WORST: Errors = Errors {
+    pub(crate) const WORST: Errors = Errors {
         siconos: f64::MAX,
         scale_free: f64::MAX,
         gap: f64::MAX,
@@ -37,6 +37,19 @@ impl Errors {
 }
 
 /// A problem with the scales its errors are measured by.
+///
+/// ```
+/// use contact_bipotential::{Cone, ContactProblem, Delassus, ErrorMeasure, Status};
+///
+/// // One contact in the plane, (t, n), that is pressed by 1 and dragged along by 10: it slides.
+/// let w = Delassus::from_entries(1, 2, &[(0, 0, 2.0), (1, 1, 1.0)])?;
+/// let problem = ContactProblem::new(w, vec![10.0, -1.0], vec![0.3], Cone::Planar)?;
+/// let measure = ErrorMeasure::new(&problem);
+/// let (mut u, r) = ([0.0; 2], [-0.3, 1.0]);
+/// assert!(measure.evaluate(&r, &mut u).worst() < 1e-15);
+/// assert_eq!(measure.diagnose(&r, &u)[0].status, Status::Slip);
+/// # Ok::<(), contact_bipotential::ContactError>(())
+/// ```
 #[derive(Debug)]
 pub struct ErrorMeasure<'a> {
     problem: &'a ContactProblem,
@@ -60,7 +73,8 @@ pub(crate) struct Dry<const D: usize> {
 }
 
 impl<const D: usize> Dry<D> {
-    /// A contact of the bare surfaces' friction `mu` with the whole reaction `r`; `u` is the end position of the bond's step.
+    /// A contact of the bare surfaces' friction `mu` with the whole reaction `r`; `u` is the end position of the bond's
+    /// step.
     #[inline(always)]
     fn new(bond: Option<&BondStep>, mu: f64, r: &Vector<D>, u: &Vector<D>) -> Self {
         let Some(bond) = bond else {
@@ -81,12 +95,12 @@ impl<const D: usize> Dry<D> {
     }
 }
 
-/// How far one contact is from the law: `|r - Proj_K(r - rho (u + mu |u_t| n))|`, in the unit of `r`, zero exactly where the
-/// law holds.
+/// How far one contact is from the law: `|r - Proj_K(r - rho (u + mu |u_t| n))|`, in the unit of `r`, zero exactly
+/// where the law holds.
 ///
-/// `u` and `r` are slices of `cone.dim()` entries, normal last; `rho > 0` is a stiffness, unit of `r` over unit of `u`. With a
-/// `bond`, `u` is the end position of its step, and the law governs what the bond force leaves of `r`; `mu` is that of the
-/// bare surfaces.
+/// `u` and `r` are slices of `cone.dim()` entries, normal last; `rho > 0` is a stiffness, unit of `r` over unit of `u`.
+/// With a `bond`, `u` is the end position of its step, and the law governs what the bond force leaves of `r`; `mu` is
+/// that of the bare surfaces.
 #[must_use]
 pub fn law_residual(
     cone: Cone,
@@ -116,12 +130,14 @@ pub fn law_residual(
 
 impl<'a> ErrorMeasure<'a> {
     /// Prepares the scales.
+    #[must_use]
     pub fn new(problem: &'a ContactProblem) -> Self {
         Self::bonded(problem, &[])
     }
 
-    /// The same with a bond at each contact (none at all if `bonds` is empty): `r` is the whole reaction, `u` is read as the
-    /// end position `(dx_t, x_n)`, and the law governs what is left of `r` without the bond force.
+    /// The same with a bond at each contact (none at all if `bonds` is empty): `r` is the whole reaction, `u` is read
+    /// as the end position `(dx_t, x_n)`, and the law governs what is left of `r` without the bond force.
+    #[must_use]
     pub fn bonded(problem: &'a ContactProblem, bonds: &'a [BondStep]) -> Self {
         let scales = problem.compliance_scales();
         let roots = scales.iter().map(|w| w.sqrt()).collect();
@@ -145,7 +161,7 @@ impl<'a> ErrorMeasure<'a> {
     }
 
     /// Compliance scale `w_c` of each contact, unit of `u` over unit of `r`.
-    pub fn scales(&self) -> &[f64] {
+    pub(crate) fn scales(&self) -> &[f64] {
         &self.scales
     }
 
@@ -169,6 +185,7 @@ impl<'a> ErrorMeasure<'a> {
     }
 
     /// The errors of `r` with a `u` known to belong to it.
+    #[must_use]
     pub fn errors(&self, r: &[f64], u: &[f64]) -> Errors {
         match self.problem.cone {
             Cone::Frictionless => self.errors_with::<1>(r, u),
@@ -228,6 +245,7 @@ impl<'a> ErrorMeasure<'a> {
     }
 
     /// How each contact stands with the law.
+    #[must_use]
     pub fn diagnose(&self, r: &[f64], u: &[f64]) -> Vec<ContactDiagnostic> {
         match self.problem.cone {
             Cone::Frictionless => self.diagnose_with::<1>(r, u),
@@ -264,7 +282,7 @@ impl<'a> ErrorMeasure<'a> {
     }
 }
 
-/// The errors of `r`, everything recomputed. For many evaluations keep a [`ErrorMeasure`].
+/// The errors of `r`, everything recomputed. For many evaluations keep an [`ErrorMeasure`].
 #[must_use]
 pub fn errors(problem: &ContactProblem, r: &[f64]) -> Errors {
     let mut u = vec![0.0; problem.q.len()];
@@ -328,12 +346,17 @@ impl Sums {
     }
 }
 
+/// Exponents of two between which a power of two and its inverse are normal numbers, with some room for products.
+const LARGEST_EXPONENT: f64 = 1000.0;
+
 /// A power of two near `1 / size`, so that scaling rounds nothing.
 fn reciprocal(size: f64) -> f64 {
     if size <= 0.0 || size.is_nan() {
         return 1.0;
     }
-    (-size.log2().round()).clamp(-1000.0, 1000.0).exp2()
+    (-size.log2().round())
+        .clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT)
+        .exp2()
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ const BATCH: usize = 1 << 22;
 
 /// A sparse matrix as a list of entries; entries at the same place are summed.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct SparseEntries {
     /// Number of rows.
     pub rows: usize,
@@ -23,8 +24,34 @@ pub struct SparseEntries {
     pub entries: Vec<(usize, usize, f64)>,
 }
 
+impl SparseEntries {
+    /// A matrix of `rows` times `columns`; whether the entries `(row, column, value)` lie in it is checked where it is
+    /// used.
+    #[must_use]
+    pub fn new(rows: usize, columns: usize, entries: Vec<(usize, usize, f64)>) -> Self {
+        SparseEntries {
+            rows,
+            columns,
+            entries,
+        }
+    }
+}
+
 /// `M v = H r + f`, `u = H^T v + w`: bodies and contacts together.
+///
+/// ```
+/// use contact_bipotential::{Cone, GlobalProblem, SparseEntries};
+///
+/// // A mass of 2 that a load of 1 drives into an obstacle, whose reaction pushes it back.
+/// let m = SparseEntries::new(1, 1, vec![(0, 0, 2.0)]);
+/// let h = SparseEntries::new(1, 1, vec![(0, 0, 1.0)]);
+/// let global = GlobalProblem::new(m, h, vec![-1.0], vec![0.0], vec![0.0], Cone::Frictionless);
+/// let local = global.reduce()?;
+/// assert_eq!((local.w.to_dense()[(0, 0)], local.q[0]), (0.5, -0.5));
+/// # Ok::<(), contact_bipotential::ContactError>(())
+/// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct GlobalProblem {
     /// Mass or stiffness, `n x n`, not singular.
     pub m: SparseEntries,
@@ -41,11 +68,31 @@ pub struct GlobalProblem {
 }
 
 impl GlobalProblem {
+    /// The problem of these matrices and vectors; whether they fit is checked by [`Self::reduce`].
+    #[must_use]
+    pub fn new(
+        m: SparseEntries,
+        h: SparseEntries,
+        f: Vec<f64>,
+        w: Vec<f64>,
+        mu: Vec<f64>,
+        cone: Cone,
+    ) -> Self {
+        GlobalProblem {
+            m,
+            h,
+            f,
+            w,
+            mu,
+            cone,
+        }
+    }
+
     /// The local problem: `W = H^T M^-1 H`, `q = H^T M^-1 f + w`, by a sparse factorisation of `M`.
     ///
     /// # Errors
-    /// [`ContactError::Factorization`] for a singular `M`, [`ContactError::Length`] and [`ContactError::Entry`] for sizes
-    /// that do not fit, and those of [`ContactProblem::check`].
+    /// [`ContactError::Factorization`] for a singular `M`, [`ContactError::Length`] and [`ContactError::Entry`] for
+    /// sizes that do not fit, and those of [`ContactProblem::check`].
     pub fn reduce(&self) -> Result<ContactProblem, ContactError> {
         let (n, contacts) = (self.f.len(), self.mu.len());
         let size = contacts * self.cone.dim();
@@ -148,16 +195,8 @@ mod tests {
     fn two_masses(m: [[f64; 2]; 2]) -> GlobalProblem {
         let entries = (0..4).map(|k| (k / 2, k % 2, m[k / 2][k % 2])).collect();
         GlobalProblem {
-            m: SparseEntries {
-                rows: 2,
-                columns: 2,
-                entries,
-            },
-            h: SparseEntries {
-                rows: 2,
-                columns: 2,
-                entries: vec![(0, 0, 1.0), (1, 0, -1.0), (1, 1, 2.0)],
-            },
+            m: SparseEntries::new(2, 2, entries),
+            h: SparseEntries::new(2, 2, vec![(0, 0, 1.0), (1, 0, -1.0), (1, 1, 2.0)]),
             f: vec![1.0, 3.0],
             w: vec![0.5, -1.0],
             mu: vec![0.0; 2],

@@ -15,6 +15,16 @@ pub enum Status {
 }
 
 /// `F = r - Proj_K(r - rho (u + mu |u_t| n))`, in the unit of `r`; zero exactly where the law holds.
+///
+/// ```
+/// use contact_bipotential::natural_map;
+/// use contact_bipotential::nalgebra::Vector2;
+///
+/// // An open contact, (t, n), without force, and one that pulls.
+/// let u = Vector2::new(0.3, 0.2);
+/// assert_eq!(natural_map(0.5, 1.0, &u, &Vector2::zeros()), Vector2::zeros());
+/// assert_eq!(natural_map(0.5, 1.0, &u, &Vector2::new(0.0, -1.0)), Vector2::new(0.0, -1.0));
+/// ```
 #[inline]
 #[must_use]
 pub fn natural_map<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Vector<D> {

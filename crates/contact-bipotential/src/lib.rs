@@ -1,8 +1,11 @@
 //! Unilateral contact with Coulomb friction by the bi-potential method: the contact problem, its solvers, and contact
 //! search. No elements, no materials.
 //!
-//! Without the default feature `geometry` there is no mesh either: `W`, `q` and `mu` make a [`ContactProblem`], [`solve`] solves
-//! it. The feature `conformance` has problems to try a solver on.
+//! Without the default feature `geometry` there is no mesh either: `W`, `q` and `mu` make a [`ContactProblem`],
+//! [`solve`] solves it. The feature `conformance` has problems to try a solver on.
+//!
+//! Most names stand here. [`cone`] holds the projections and the bi-potential, [`rcc`] the law of adhesion with its
+//! choices, [`flat`] the sums over flat vectors that others share.
 //!
 //! Conventions, once: `n` points out of the master towards the slave, `x = X_slave - X_master` in the local frame
 //! `(t1, t2, n)`, normal **last**; `r` acts on the slave; `x_n >= 0` is separation, `r_n >= 0` compression.
@@ -18,6 +21,7 @@ pub mod conformance;
 mod delassus;
 mod error;
 mod error_measure;
+pub mod flat;
 #[cfg(feature = "geometry")]
 mod geometry;
 mod global;
@@ -47,5 +51,5 @@ pub use problem::ContactProblem;
 pub use rcc::{Adhesion, Bond, BondStep};
 pub use solve::{
     Method, Outcome, SequenceSolver, SingleContact, SingleSolution, SolveSettings, SolveStatus,
-    Work, freeze_bonds, single_residual, solve, solve_bonded, solve_single,
+    Work, freeze_bonds, solve, solve_bonded, solve_single,
 };

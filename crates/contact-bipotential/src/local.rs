@@ -90,8 +90,8 @@ pub(crate) fn solve_small<const D: usize>(a: &Matrix<D>, b: &Vector<D>) -> Optio
 
 /// Inverse by elimination with partial pivoting; `None` when singular.
 ///
-/// `try_inverse` of nalgebra takes cofactors: it loses the digits of ill-conditioned blocks and, where entries are below
-/// 1e-103 or above 1e102, the determinant under- or overflows (a test below shows both).
+/// `try_inverse` of nalgebra takes cofactors: it loses the digits of ill-conditioned blocks and, where entries are
+/// below 1e-103 or above 1e102, the determinant under- or overflows (a test below shows both).
 #[inline]
 pub(crate) fn inverse<const D: usize>(a: &Matrix<D>) -> Option<Matrix<D>> {
     let (mut a, mut x) = (*a, Matrix::<D>::identity());

@@ -138,7 +138,7 @@ impl ContactProblem {
 
     /// Compliance scale of each contact: mean diagonal of `W_cc`; where that vanishes, the mean over the others (or 1).
     #[must_use]
-    pub fn compliance_scales(&self) -> Vec<f64> {
+    pub(crate) fn compliance_scales(&self) -> Vec<f64> {
         let mut scales: Vec<f64> = (0..self.contacts())
             .map(|c| match self.cone {
                 Cone::Frictionless => self.w.diagonal::<1>(c).trace(),

@@ -2,23 +2,27 @@
 //!
 //! Free energy `beta^2 k / 2 - w beta` and viscous dissipation `b beta'^2` per area, with
 //! `k = C_n x_n^2 + C_t |u_t|^2`: the bond pulls with `-beta^2 (C_t u_t, C_n x_n)`, and `b beta' = w - k beta` within
-//! `0 <= beta <= 1`. `u_t` is the separation since bonding, `x_n` the gap. Everything here is pure: a [`BondStep`] is asked
-//! as often as an iteration likes and changes nothing.
+//! `0 <= beta <= 1`. `u_t` is the separation since bonding, `x_n` the gap. Everything here is pure: a [`BondStep`] is
+//! asked as often as an iteration likes and changes nothing.
 
 mod parameters;
 mod update;
 
 use nalgebra::{Matrix3, Vector3};
 
-pub use parameters::{Adhesion, Healing, Reference, Update};
+pub use parameters::{Adhesion, DEFAULT_THRESHOLD, Healing, Reference, Update};
 use update::{blend, blend_slope, decay_mean, decay_mean_slope};
 
-/// Gap over the damage gap \[-\] up to which a pair counts as touching: its bond is strained by a millionth of `w`. An iteration
-/// that approaches a closed gap from above must not see healing come and go with the last digits.
+/// Gap over the damage gap \[-\] up to which a pair counts as touching: its bond is strained by a millionth of `w`. An
+/// iteration that approaches a closed gap from above must not see healing come and go with the last digits.
 const CLOSED: f64 = 1e-3;
 
 /// Share of its intensity \[-\] that a bond may lose in a step that is believed although the end might be another one.
 const CONTINUED: f64 = 0.2;
+
+/// Steepest fall of the pull `beta^2 C x` with the stretch `x` over its secant `beta^2 C` \[-\]. Over a step the slope
+/// is `beta^2 C (1 - 4 k / (b / dt + k))`: it falls where `3 k dt > b`, and three times the secant is the limit.
+const SOFTENING: f64 = 3.0;
 
 /// Pull over the strength of a bond below which it is not worth following \[-\].
 const WEAK: f64 = 1e-3;
@@ -41,6 +45,7 @@ const WEAK: f64 = 1e-3;
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Bond {
     /// `beta` \[-\], 0 broken, 1 intact.
     pub intensity: f64,
@@ -61,8 +66,8 @@ impl Bond {
         }
     }
 
-    /// Whether the bond is worth following: not broken, and pulling with a thousandth of its strength `s0 = sqrt(w C)` or
-    /// more. What is left of the work of separation then is `w/200` at most in slow separation.
+    /// Whether the bond is worth following: not broken, and pulling with a thousandth of its strength `s0 = sqrt(w C)`
+    /// or more. What is left of the work of separation then is `w/200` at most in slow separation.
     #[must_use]
     pub fn holds(&self, law: &Adhesion) -> bool {
         let [t1, t2] = law.tangential_stiffness;
@@ -103,8 +108,8 @@ pub struct BondPoint {
     pub intensity: f64,
     /// Bond force on the slave \[N\]: it pulls the slave back.
     pub force: Vector3<f64>,
-    /// Minus the derivative of the force with respect to `(dx_t, x_n)` \[N/m\]; not symmetric, may be indefinite where the bond
-    /// softens.
+    /// Minus the derivative of the force with respect to `(dx_t, x_n)` \[N/m\]; not symmetric, may be indefinite where
+    /// the bond softens.
     pub stiffness: Matrix3<f64>,
     /// Derivative of `beta` with respect to `(dx_t, x_n)` \[1/m\].
     pub intensity_slope: Vector3<f64>,
@@ -184,8 +189,7 @@ impl BondStep {
     }
 
     /// Derivative of [`friction`](Self::friction) with respect to `beta`.
-    #[must_use]
-    pub fn friction_slope(&self, mu: f64) -> f64 {
+    pub(crate) fn friction_slope(&self, mu: f64) -> f64 {
         self.friction(mu, 1.0) - mu
     }
 
@@ -259,8 +263,7 @@ impl BondStep {
 
     /// For the intensity `beta` at the end the force is `-D (x + shift)`: the diagonal `D` \[N/m\] and the shift \[m\]
     /// (`(I + W D)^-1 W` is then the compliance that friction sees). Valid for `x_n >= 0`.
-    #[must_use]
-    pub fn spring(&self, beta: f64) -> (Vector3<f64>, Vector3<f64>) {
+    pub(crate) fn spring(&self, beta: f64) -> (Vector3<f64>, Vector3<f64>) {
         let [t1, t2] = self.law.tangential_stiffness;
         let c = Vector3::new(self.kept * t1, self.kept * t2, self.law.normal_stiffness);
         let (u, start) = (self.start.separation, self.start.intensity);
@@ -336,8 +339,8 @@ impl BondStep {
         }
     }
 
-    /// Energies of the step that ended at `x`. Work minus stored minus dissipated is the error of the integration: zero for
-    /// [`Update::EnergyConsistent`] without ageing.
+    /// Energies of the step that ended at `x`. Work minus stored minus dissipated is the error of the integration: zero
+    /// for [`Update::EnergyConsistent`] without ageing.
     #[must_use]
     pub fn energy(&self, x: &Vector3<f64>) -> BondEnergy {
         let (separation, gap) = self.end(x);
@@ -371,8 +374,9 @@ impl BondStep {
     }
 
     /// Whether the step may have jumped: the bond lost a good part of its intensity, and more than one end position may
-    /// satisfy the law, since it softens faster than both viscosity over `dt` and the body of local stiffness `stiffness`
-    /// \[N/m\] can follow. A branch that goes on is told from a jump by steps so short that the bond loses little in each.
+    /// satisfy the law, since it softens faster than both viscosity over `dt` and the body of local stiffness
+    /// `stiffness` \[N/m\] can follow. A branch that goes on is told from a jump by steps so short that the bond loses
+    /// little in each.
     #[must_use]
     pub fn may_snap(&self, x: &Vector3<f64>, stiffness: f64) -> bool {
         let (separation, gap) = self.end(x);
@@ -383,8 +387,8 @@ impl BondStep {
             .fold(self.law.normal_stiffness, |m, c| m.max(*c));
         let b0 = self.start.intensity;
         self.intensity(x).0 < (1.0 - CONTINUED) * b0
-            && 3.0 * self.law.strain(&separation, gap) * self.dt > self.law.viscosity
-            && 3.0 * c * b0 * b0 * self.area > stiffness
+            && SOFTENING * self.law.strain(&separation, gap) * self.dt > self.law.viscosity
+            && SOFTENING * c * b0 * b0 * self.area > stiffness
     }
 }
 

@@ -22,7 +22,7 @@ mod uzawa;
 pub use bonded::{freeze_bonds, solve_bonded};
 pub use outcome::{Method, Outcome, SolveSettings, SolveStatus, Work};
 pub use sequence::SequenceSolver;
-pub use single::{SingleContact, SingleSolution, single_residual, solve_single};
+pub use single::{SingleContact, SingleSolution, solve_single};
 
 use crate::cone::Cone;
 use crate::delassus::Delassus;

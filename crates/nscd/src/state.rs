@@ -112,11 +112,7 @@ pub struct NodeBond {
 impl NodeBond {
     /// The bond with its separation in other axes.
     pub(crate) fn with(&self, separation: [f64; 2]) -> Bond {
-        Bond {
-            intensity: self.intensity,
-            gap: self.gap,
-            separation,
-        }
+        Bond::new(self.intensity, self.gap, separation)
     }
 }
 

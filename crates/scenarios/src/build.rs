@@ -167,6 +167,7 @@ fn interfaces(loaded: &LoadedScene, mesh: &Mesh) -> Result<Vec<Interface>, Scene
     let one = |(name, given): (&String, &spec::Interface)| {
         let built = interface(mesh, name, given)
             .map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e))?;
+        // The detector asks again, for models made in code; here the fault has its place in the scene.
         built
             .validate(mesh.points.len(), mesh.dim)
             .map_err(|e| loaded.refuse(&format!("interfaces.{name}"), e.to_string()))?;
@@ -223,19 +224,16 @@ const OUT_OF_PROPORTION: f64 = 1e6;
 const BOND_REACH: f64 = 10.0;
 
 fn adhesion(given: &spec::Adhesion) -> Adhesion {
-    Adhesion {
-        normal_stiffness: given.normal_stiffness,
-        tangential_stiffness: given.tangential_stiffness.pair(),
-        energy: given.energy,
-        viscosity: given.viscosity,
-        threshold: given.threshold,
-        healing_gap: given.healing_gap,
-        initial: given.initial,
-        healing: given.healing,
-        reference: given.reference,
-        update: given.update,
-        bonded_friction: given.bonded_friction,
-    }
+    let [first, second] = given.tangential_stiffness.pair();
+    Adhesion::new(given.normal_stiffness, first, given.energy, given.viscosity)
+        .with_tangential_stiffness([first, second])
+        .with_threshold(given.threshold)
+        .with_healing_gap(given.healing_gap)
+        .with_initial(given.initial)
+        .with_healing(given.healing)
+        .with_reference(given.reference)
+        .with_update(given.update)
+        .with_bonded_friction(given.bonded_friction)
 }
 
 /// How far a node may overhang the rim of a deformable master, as a part of a facet \[-\]. Bodies with flush sides

@@ -27,6 +27,10 @@ fn law() -> Adhesion {
     Adhesion::new(1e5, 1e5, 10.0, 5.0)
 }
 
+fn rate_independent() -> Adhesion {
+    Adhesion::new(1e5, 1e5, 10.0, 0.0)
+}
+
 fn pulled(law: Adhesion, sets: &[&str]) -> Run {
     let loaded = scene_text(PULL, sets);
     let mut built = scenarios::build(&loaded).unwrap();
@@ -91,7 +95,7 @@ fn peak_by_hand() -> f64 {
 #[test]
 fn bonds_break_heal_and_carry_again() {
     for update in [Update::SecondOrder, Update::EnergyConsistent] {
-        let run = pulled(Adhesion { update, ..law() }, &[]);
+        let run = pulled(law().with_update(update), &[]);
         run.assert_audited(10.0, 1e-9);
         let curve = curve(&run);
         // Bonds form at w / b from the first contact.
@@ -121,14 +125,8 @@ fn bonds_break_heal_and_carry_again() {
 
 #[test]
 fn an_irreversible_bond_never_heals() {
-    let run = pulled(
-        Adhesion {
-            initial: 1.0,
-            healing: Healing::Irreversible,
-            ..law()
-        },
-        &[],
-    );
+    let glue = law().with_initial(1.0).with_healing(Healing::Irreversible);
+    let run = pulled(glue, &[]);
     run.assert_audited(10.0, 1e-9);
     let curve = curve(&run);
     assert!(curve.windows(2).all(|c| c[1][2] <= c[0][2]));
@@ -144,10 +142,7 @@ fn the_integration_error_of_bonds_vanishes_with_the_step() {
     };
     let (coarse, fine) = (error("dt=0.01"), error("dt=0.005"));
     assert!(fine < 0.6 * coarse, "{coarse} {fine}");
-    let pair = Adhesion {
-        update: Update::EnergyConsistent,
-        ..law()
-    };
+    let pair = law().with_update(Update::EnergyConsistent);
     assert!(pulled(pair, &[]).totals.energy.bond_error.abs() < 1e-3 * coarse);
 }
 
@@ -178,11 +173,7 @@ fn an_interface_that_snaps_is_cut_and_then_stops_with_that_reason() {
         "time.end=1.7",
         "min_dt=0.001",
     ];
-    let snapping = Adhesion {
-        viscosity: 0.0,
-        initial: 1.0,
-        ..law()
-    };
+    let snapping = rate_independent().with_initial(1.0);
     let loaded = scene_text(PULL, &soft);
     let mut built = scenarios::build(&loaded).unwrap();
     built.model.interfaces[0].adhesion = Some(snapping);
@@ -198,13 +189,7 @@ fn an_interface_that_snaps_is_cut_and_then_stops_with_that_reason() {
 /// The rate-independent limit on a stiff body needs no cutting: peak s0 at x0, work of separation w.
 #[test]
 fn without_viscosity_the_peak_is_the_strength_of_the_bond() {
-    let run = pulled(
-        Adhesion {
-            viscosity: 0.0,
-            ..law()
-        },
-        &["dt=0.0025", "time.end=1.7"],
-    );
+    let run = pulled(rate_independent(), &["dt=0.0025", "time.end=1.7"]);
     assert!(run.totals.rejections.is_empty());
     run.assert_audited(10.0, 1e-9);
     let strength = (10.0_f64 * 1e5).sqrt();
@@ -248,10 +233,7 @@ fn a_bond_that_turns_with_its_bodies_notices_nothing() {
         .replace("TX", &path(&|a| -0.004 * a.sin()))
         .replace("TY", &path(&|a| 0.004 * a.cos()));
     let mut built = scenarios::build(&scene_text(&text, &[])).unwrap();
-    built.model.interfaces[0].adhesion = Some(Adhesion {
-        initial: 1.0,
-        ..law()
-    });
+    built.model.interfaces[0].adhesion = Some(law().with_initial(1.0));
     let run = try_run_built(built);
     assert!(run.end.is_ok(), "{:?}", run.end);
     run.assert_audited(10.0, 1e-9);

@@ -76,10 +76,10 @@ impl Pull {
 
 /// The bond at the rate `de`: the same law with `b = 0` for none.
 fn pull(law: &Adhesion, de: f64, direction: [f64; 3]) -> Pull {
-    let law = Adhesion {
-        viscosity: if de == 0.0 { 0.0 } else { law.viscosity },
-        ..*law
-    };
+    let mut law = *law;
+    if de == 0.0 {
+        law.viscosity = 0.0;
+    }
     let x0 = law.damage_gap();
     let speed = if de == 0.0 {
         1.0
@@ -91,10 +91,7 @@ fn pull(law: &Adhesion, de: f64, direction: [f64; 3]) -> Pull {
         beta: vec![1.0],
         traction: vec![[0.0; 3]],
     };
-    let mut bond = Bond {
-        intensity: 1.0,
-        ..Bond::default()
-    };
+    let mut bond = Bond::new(1.0, 0.0, [0.0; 2]);
     let mut last = 0.0;
     // The distance x0, at which damage starts, ends a step.
     for k in DECADES[0] * PER_DECADE..=DECADES[1] * PER_DECADE {
@@ -290,10 +287,7 @@ fn tangential() -> Result<Figure, String> {
     let pulls: Vec<Pull> = RATES.map(|de| pull(&law, de, [1.0, 0.0, 0.0])).into();
     let svg = charts_svg(&near_charts(&law, &pulls, "Slip"), 2)?;
     let [first, second] = law.tangential_stiffness;
-    let orthotropic = Adhesion {
-        tangential_stiffness: [first, 0.25 * second],
-        ..law
-    };
+    let orthotropic = law.with_tangential_stiffness([first, 0.25 * second]);
     let (round, round_angle) = map(&law);
     let (oval, oval_angle) = map(&orthotropic);
     let maps = Maps {

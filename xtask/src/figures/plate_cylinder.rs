@@ -16,7 +16,7 @@ const SLIDING: f64 = 8.0;
 /// The slave node on the line of first contact: bonds belong to slave nodes.
 const NODE: &str = "cylinder";
 /// Intensity of a bond that has let go.
-const BROKEN: f64 = 0.1;
+const DEFAULT_THRESHOLD: f64 = 0.1;
 
 /// The motion of the plate in the five cases.
 fn descent(milliseconds: f64) -> [String; 2] {
@@ -162,7 +162,7 @@ fn ends(run: &Ran) -> Result<String, String> {
         &time,
         &run.column(&format!("probe.{NODE}.adhesion_tangential"))?,
     );
-    let broken = first_below_after_peak(&time, &beta, BROKEN);
+    let broken = first_below_after_peak(&time, &beta, DEFAULT_THRESHOLD);
     Ok(format!(
         "{} | {} | {} |",
         digits(top, 4),

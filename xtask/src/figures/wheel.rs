@@ -15,7 +15,7 @@ const SHOWN: usize = 1;
 const TIMES: [f64; 2] = [0.005, 0.020];
 const NODES: [&str; 3] = ["a", "b", "c"];
 /// Intensity of a bond that has let go.
-const BROKEN: f64 = 0.1;
+const DEFAULT_THRESHOLD: f64 = 0.1;
 
 pub(super) fn runs() -> Vec<Planned> {
     let run = |modulus: f64| {
@@ -153,7 +153,7 @@ fn bonds(runs: &[Ran]) -> Result<String, String> {
                 run.plan.name,
                 milliseconds(first_above(&time, &beta, 0.0)),
                 digits(peak(&time, &beta).1, 3),
-                milliseconds(first_below_after_peak(&time, &beta, BROKEN)),
+                milliseconds(first_below_after_peak(&time, &beta, DEFAULT_THRESHOLD)),
                 digits(top, 3),
                 milliseconds(Some(at)),
             );

@@ -6,8 +6,8 @@ use super::DenseMatrix;
 use crate::error::ContactError;
 use crate::local::Vector;
 
-/// A square matrix of `dim x dim` blocks in compressed rows; columns ascend in each row, the diagonal is always there, and
-/// so is the mirror image of every block, if only as zeros.
+/// A square matrix of `dim x dim` blocks in compressed rows; columns ascend in each row, the diagonal is always there,
+/// and so is the mirror image of every block, if only as zeros.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockSparse {
     dim: usize,
@@ -18,6 +18,16 @@ pub struct BlockSparse {
 
 impl BlockSparse {
     /// From blocks `(row, column, values by rows)` in any order; blocks at the same place are summed.
+    ///
+    /// ```
+    /// use contact_bipotential::BlockSparse;
+    ///
+    /// // Two frictionless contacts that share a body.
+    /// let blocks = [(0, 0, vec![2.0]), (1, 1, vec![3.0]), (0, 1, vec![0.5]), (1, 0, vec![0.5])];
+    /// let w = BlockSparse::from_blocks(2, 1, &blocks)?;
+    /// assert_eq!(w.to_dense()[(1, 0)], 0.5);
+    /// # Ok::<(), contact_bipotential::ContactError>(())
+    /// ```
     ///
     /// # Errors
     /// [`ContactError::Block`] outside of `contacts`, [`ContactError::Length`] for a block without `dim * dim` values.
@@ -122,29 +132,31 @@ impl BlockSparse {
     }
 
     /// Entries a contact.
+    #[must_use]
     pub fn dim(&self) -> usize {
         self.dim
     }
 
     /// Number of contacts.
+    #[must_use]
     pub fn contacts(&self) -> usize {
         self.offsets.len() - 1
     }
 
     /// Number of stored blocks.
-    pub fn block_count(&self) -> usize {
+    pub(crate) fn block_count(&self) -> usize {
         self.columns.len()
     }
 
     /// Columns of the blocks in row `c`.
     #[inline]
-    pub fn row(&self, c: usize) -> &[u32] {
+    pub(crate) fn row(&self, c: usize) -> &[u32] {
         &self.columns[self.offsets[c]..self.offsets[c + 1]]
     }
 
     /// Values of the blocks in row `c`, block after block, each by rows.
     #[inline]
-    pub fn row_values(&self, c: usize) -> &[f64] {
+    pub(crate) fn row_values(&self, c: usize) -> &[f64] {
         let size = self.dim * self.dim;
         &self.values[self.offsets[c] * size..self.offsets[c + 1] * size]
     }

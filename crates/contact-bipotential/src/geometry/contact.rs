@@ -15,6 +15,7 @@ pub struct ContactKey {
 
 impl ContactKey {
     /// The key of a slave node of an interface.
+    #[must_use]
     pub const fn new(interface: usize, slave_index: usize) -> Self {
         Self {
             interface,
@@ -33,6 +34,7 @@ pub struct Stencil {
 
 impl Stencil {
     /// The stencil of a node against a rigid obstacle.
+    #[must_use]
     pub fn rigid(slave: u32) -> Self {
         Self {
             nodes: [slave, 0, 0, 0, 0],
@@ -44,6 +46,7 @@ impl Stencil {
     /// The stencil of a node against up to 4 master nodes with shape functions `weights` \[-\], which sum to 1.
     ///
     /// Nodes beyond the fourth are ignored, as are weights that are exactly zero (edges and vertices).
+    #[must_use]
     pub fn deformable(slave: u32, nodes: &[u32], weights: &[f64]) -> Self {
         let mut stencil = Self::rigid(slave);
         for (node, w) in nodes
@@ -61,11 +64,13 @@ impl Stencil {
     }
 
     /// Nodes, the slave first.
+    #[must_use]
     pub fn nodes(&self) -> &[u32] {
         &self.nodes[..self.count as usize]
     }
 
     /// Weights \[-\], in the order of the nodes.
+    #[must_use]
     pub fn weights(&self) -> &[f64] {
         &self.weights[..self.count as usize]
     }
@@ -105,6 +110,7 @@ pub struct Contact {
 impl Contact {
     /// A contact of the slave node with which `stencil` starts, in the frame with the columns `t1`, `t2`, `n`; `gap`
     /// \[m\] is negative where the slave is inside.
+    #[must_use]
     pub fn new(key: ContactKey, stencil: Stencil, frame: Matrix3<f64>, gap: f64) -> Self {
         Self {
             interface: key.interface,
@@ -119,8 +125,7 @@ impl Contact {
     }
 
     /// The same contact on a facet of a deformable master.
-    #[must_use]
-    pub fn on_facet(self, facet: u32) -> Self {
+    pub(crate) fn on_facet(self, facet: u32) -> Self {
         Self {
             facet: Some(facet),
             ..self
@@ -129,8 +134,7 @@ impl Contact {
 
     /// The same contact on an obstacle whose material point under it moves by `motion` \[m\] over the step, in global
     /// axes.
-    #[must_use]
-    pub fn on_moving_obstacle(self, motion: Vector3<f64>) -> Self {
+    pub(crate) fn on_moving_obstacle(self, motion: Vector3<f64>) -> Self {
         Self {
             obstacle_motion: motion,
             ..self

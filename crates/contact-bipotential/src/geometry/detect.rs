@@ -146,11 +146,13 @@ impl Detector {
     }
 
     /// The interfaces, in the order that [`Contact::interface`] counts.
+    #[must_use]
     pub fn interfaces(&self) -> &[Interface] {
         &self.interfaces
     }
 
     /// What has been done so far.
+    #[must_use]
     pub fn counters(&self) -> DetectionCounters {
         self.counters
     }

@@ -51,6 +51,7 @@ pub const RIM_ROUND_OFF: f64 = 1e-6;
 
 impl Interface {
     /// A frictionless interface without restitution and with the default rim tolerance.
+    #[must_use]
     pub fn new(
         name: &str,
         slave: Vec<u32>,

@@ -27,6 +27,7 @@ pub struct ContactMap {
 
 impl ContactMap {
     /// A map over contacts of a mesh with `dim` (2 or 3) unknowns a node.
+    #[must_use]
     pub fn new(contacts: Vec<Contact>, dim: usize, cone: Cone) -> Self {
         Self {
             contacts,
@@ -44,26 +45,31 @@ impl ContactMap {
     }
 
     /// Number of contacts.
+    #[must_use]
     pub fn len(&self) -> usize {
         self.contacts.len()
     }
 
     /// True without contacts.
+    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.contacts.is_empty()
     }
 
     /// Components of a contact.
+    #[must_use]
     pub fn cone(&self) -> Cone {
         self.cone
     }
 
     /// Unknowns a node.
+    #[must_use]
     pub fn dim(&self) -> usize {
         self.dim
     }
 
     /// Length of a local vector: contacts times entries a contact.
+    #[must_use]
     pub fn row_count(&self) -> usize {
         self.len() * self.cone.dim()
     }

@@ -57,12 +57,8 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The same shape with unit directions.
-    ///
-    /// # Errors
-    /// [`GeometryError`] with the bound when a parameter lies outside of it: points and radii must be finite,
-    /// radii positive, directions not zero, the semi-apex angle between 0 and 90 degrees.
-    pub fn checked(self) -> Result<Self, GeometryError> {
+    /// The same shape with unit directions, its parameters checked.
+    fn checked(self) -> Result<Self, GeometryError> {
         match self {
             Shape::Plane { point, normal } => Ok(Shape::Plane {
                 point: finite("plane point", point)?,
@@ -337,7 +333,8 @@ impl Obstacle {
     /// An obstacle that is where its shape says at zero displacement.
     ///
     /// # Errors
-    /// What [`Shape::checked`] refuses.
+    /// [`GeometryError`] with the bound when a parameter of the shape lies outside of it: points and radii must be
+    /// finite, radii positive, directions not zero, the semi-apex angle between 0 and 90 degrees.
     pub fn new(shape: Shape, motion: Motion) -> Result<Self, GeometryError> {
         Ok(Self {
             shape: shape.checked()?,
@@ -346,11 +343,13 @@ impl Obstacle {
     }
 
     /// The shape at its reference position, with unit directions.
+    #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }
 
     /// The motion.
+    #[must_use]
     pub fn motion(&self) -> &Motion {
         &self.motion
     }
@@ -415,6 +414,7 @@ pub struct PlacedObstacle<'a> {
 
 impl PlacedObstacle<'_> {
     /// The shape at the end of the step.
+    #[must_use]
     pub fn shape(&self) -> &Shape {
         &self.shape
     }

@@ -5,6 +5,7 @@ use crate::error::ParameterError;
 /// Whether broken bonds form again.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Healing {
     /// `beta` rises again in contact \[Hu2022\].
     #[default]
@@ -16,6 +17,7 @@ pub enum Healing {
 /// What the tangential separation is measured from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Reference {
     /// The place of bonding; forgotten when the pair parts with a broken bond.
     #[default]
@@ -27,6 +29,7 @@ pub enum Reference {
 /// How `beta` and the bond force are integrated over a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
 pub enum Update {
     /// Exact for a constant `k`, second order in `beta`, stiffly accurate; the force is that of the end of the step.
     #[default]
@@ -35,8 +38,22 @@ pub enum Update {
     EnergyConsistent,
 }
 
+/// Default of [`Adhesion::threshold`] \[-\]: a bond that weak pulls with a hundred-millionth of its stiffness.
+pub const DEFAULT_THRESHOLD: f64 = 1e-4;
+
 /// Parameters of the adhesion of an interface.
+///
+/// ```
+/// use contact_bipotential::Adhesion;
+/// use contact_bipotential::rcc::Healing;
+///
+/// // C_n = C_t = 2 GN/m^3, w = 20 J/m^2, b = 0.1 N s/m; glued at the start, and never again.
+/// let glue = Adhesion::new(2e9, 2e9, 20.0, 0.1).with_initial(1.0).with_healing(Healing::Irreversible);
+/// // Bonds start to break at sqrt(w / C) = 0.1 mm.
+/// assert!((glue.damage_gap() - 1e-4).abs() < 1e-18);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Adhesion {
     /// `C_n`: force per area and gap of intact bonds \[N/m^3\], >= 0.
     pub normal_stiffness: f64,
@@ -63,15 +80,16 @@ pub struct Adhesion {
 }
 
 impl Adhesion {
-    /// Recoverable adhesion with the defaults of \[Hu2022\]: bonds start at zero and form in contact only.
+    /// Recoverable adhesion with the defaults of \[Hu2022\]: bonds start at zero and form in contact only. `normal` and
+    /// `tangential` are the stiffnesses \[N/m^3\], `energy` is `w` \[J/m^2\], `viscosity` is `b` \[N s/m\].
     #[must_use]
-    pub fn new(normal: f64, tangential: f64, energy: f64, viscosity: f64) -> Self {
+    pub const fn new(normal: f64, tangential: f64, energy: f64, viscosity: f64) -> Self {
         Self {
             normal_stiffness: normal,
             tangential_stiffness: [tangential; 2],
             energy,
             viscosity,
-            threshold: 1e-4,
+            threshold: DEFAULT_THRESHOLD,
             healing_gap: 0.0,
             initial: 0.0,
             healing: Healing::Recoverable,
@@ -79,6 +97,62 @@ impl Adhesion {
             update: Update::SecondOrder,
             bonded_friction: None,
         }
+    }
+
+    /// The same with another stiffness along each tangent, `t1` and `t2` \[N/m^3\].
+    #[must_use]
+    pub const fn with_tangential_stiffness(mut self, tangential_stiffness: [f64; 2]) -> Self {
+        self.tangential_stiffness = tangential_stiffness;
+        self
+    }
+
+    /// The same with another [`threshold`](Self::threshold) \[-\].
+    #[must_use]
+    pub const fn with_threshold(mut self, threshold: f64) -> Self {
+        self.threshold = threshold;
+        self
+    }
+
+    /// The same with bonds that form up to the gap `healing_gap` \[m\].
+    #[must_use]
+    pub const fn with_healing_gap(mut self, healing_gap: f64) -> Self {
+        self.healing_gap = healing_gap;
+        self
+    }
+
+    /// The same with bonds of the intensity `initial` \[-\] where surfaces touch at the start.
+    #[must_use]
+    pub const fn with_initial(mut self, initial: f64) -> Self {
+        self.initial = initial;
+        self
+    }
+
+    /// The same with broken bonds that form again, or do not.
+    #[must_use]
+    pub const fn with_healing(mut self, healing: Healing) -> Self {
+        self.healing = healing;
+        self
+    }
+
+    /// The same with another reference of the tangential separation.
+    #[must_use]
+    pub const fn with_reference(mut self, reference: Reference) -> Self {
+        self.reference = reference;
+        self
+    }
+
+    /// The same with another integration over a step.
+    #[must_use]
+    pub const fn with_update(mut self, update: Update) -> Self {
+        self.update = update;
+        self
+    }
+
+    /// The same with a Coulomb coefficient of intact bonds \[-\], or that of the bare surfaces.
+    #[must_use]
+    pub const fn with_bonded_friction(mut self, bonded_friction: Option<f64>) -> Self {
+        self.bonded_friction = bonded_friction;
+        self
     }
 
     /// The same parameters, checked.
@@ -142,8 +216,8 @@ impl Adhesion {
         }
     }
 
-    /// The intensity that a bond at rest at the gap `x_n` \[m\] starts with at most \[-\]: `min(1, w/k)` if `b = 0`, else 1,
-    /// which takes time to fall.
+    /// The intensity that a bond at rest at the gap `x_n` \[m\] starts with at most \[-\]: `min(1, w/k)` if `b = 0`,
+    /// else 1, which takes time to fall.
     #[must_use]
     pub fn lasting(&self, gap: f64) -> f64 {
         let k = self.strain(&[0.0; 2], gap);

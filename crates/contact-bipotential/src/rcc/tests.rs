@@ -15,7 +15,8 @@ fn bond(intensity: f64, gap: f64, separation: [f64; 2]) -> Bond {
     }
 }
 
-/// Pulls a bond along `path(t)` = (u_t1, u_t2, x_n) in `steps` equal steps to `end`; returns the bond and the sums of energies.
+/// Pulls a bond along `path(t)` = (u_t1, u_t2, x_n) in `steps` equal steps to `end`; returns the bond and the sums of
+/// energies.
 fn follow(
     law: &Adhesion,
     mut at: Bond,

@@ -6,8 +6,8 @@ use crate::solve::iterate::Iterate;
 
 /// Pairs of differences that are kept.
 const DEPTH: usize = 8;
-/// Steps without a new best point after which the extrapolation rests, and how long it rests: what circles must be left to
-/// itself for a while.
+/// Steps without a new best point after which the extrapolation rests, and how long it rests: what circles must be left
+/// to itself for a while.
 const PATIENCE: usize = 20;
 const REST: usize = 20;
 /// Error of an extrapolated point over that of the plain one, beyond which it is not taken \[-\].
@@ -34,8 +34,8 @@ impl Acceleration {
         self.anderson.forget();
     }
 
-    /// Extrapolates the sequence after its step from the reactions `before` to `x`, and keeps the best point met in `best`;
-    /// `improved` tells whether the plain step was one.
+    /// Extrapolates the sequence after its step from the reactions `before` to `x`, and keeps the best point met in
+    /// `best`; `improved` tells whether the plain step was one.
     pub(crate) fn accelerate(
         &mut self,
         measure: &ErrorMeasure<'_>,

@@ -12,10 +12,12 @@ use crate::solve::uzawa::uzawa;
 
 /// A start with reactions and a smaller error \[-\] is warm: no sweeps before Newton.
 const WARM: f64 = 0.1;
-/// Sweeps of a cold start at most, and the error over that of the sweeps before \[-\] up to which more of them pay: where
-/// each symmetric sweep gains a factor of five, sweeping is all it takes.
+/// Sweeps of a cold start at most, and the error over that of the sweeps before \[-\] up to which more of them pay:
+/// where each symmetric sweep gains a factor of five, sweeping is all it takes.
 const MOST: usize = 200;
 const PAYS: f64 = 0.2;
+/// Part of the budget that each later attempt with sweeps may take at most: one over this.
+const SWEEPS_PART: usize = 3;
 /// Newton steps for one iteration of [`SolveSettings::max_iterations`]: a step costs some ten sweeps.
 const NEWTON_PART: usize = 10;
 
@@ -30,7 +32,7 @@ enum What {
     FirstSweeps(usize),
     /// Semismooth Newton on the problem itself, so many steps.
     Newton(usize),
-    /// So many sweeps, at most a third of the budget.
+    /// So many sweeps, at most the budget over [`SWEEPS_PART`].
     Sweeps(usize),
     /// Proximal Newton, with the Newton steps of the budget over this number.
     Proximal(ProximalPlan, usize),
@@ -48,8 +50,9 @@ enum When {
     ColdSparse,
 }
 
-/// The attempts in their order, each from the best point of those before, until the errors are within the tolerance. The
-/// numbers are those that solved the FCLib collection and the walls and half-spaces of the benches in the least time.
+/// The attempts in their order, each from the best point of those before, until the errors are within the tolerance.
+/// The numbers are those that solved the FCLib collection and the walls and half-spaces of the benches in the least
+/// time.
 const ATTEMPTS: [Attempt; 8] = [
     Attempt {
         what: What::FirstSweeps(6),
@@ -143,7 +146,8 @@ pub(crate) fn auto<const D: usize>(
                 work,
             ),
             What::Sweeps(sweeps) => {
-                sweeper.run(measure, best, tolerance, (*sweeps).min(budget / 3), work);
+                let sweeps = (*sweeps).min(budget / SWEEPS_PART);
+                sweeper.run(measure, best, tolerance, sweeps, work);
             }
             What::Proximal(plan, part) => {
                 let steps = budget / NEWTON_PART / part;

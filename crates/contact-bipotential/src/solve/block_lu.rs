@@ -1,8 +1,8 @@
 //! Sparse LU by contacts: `D x D` blocks, symmetric pattern, minimum-degree order, pivoting inside of a block only.
 //!
-//! Contact networks of rigid bodies fill in little, and their blocks are too small for supernodes: one row after the other
-//! is cheapest. Without pivoting across blocks the result may be poor where the matrix is nearly singular; the callers
-//! check what they do with it.
+//! Contact networks of rigid bodies fill in little, and their blocks are too small for supernodes: one row after the
+//! other is cheapest. Without pivoting across blocks the result may be poor where the matrix is nearly singular; the
+//! callers check what they do with it.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;

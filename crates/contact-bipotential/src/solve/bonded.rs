@@ -1,8 +1,8 @@
 //! Contact problems with bonds: friction sees the compliance that the bonds leave.
 //!
 //! For an intensity `beta` the bond is a spring `r~ = -D (x + shift)`, and `x = W r + q` with `r = rbar + r~` becomes
-//! `x = Wt rbar + xt`, `Wt = (I + W D)^-1 W`, `xt = (I + W D)^-1 (q - W D shift)`: a problem without bonds. `beta` then solves
-//! a scalar equation between 0 and 1 at each contact.
+//! `x = Wt rbar + xt`, `Wt = (I + W D)^-1 W`, `xt = (I + W D)^-1 (q - W D shift)`: a problem without bonds. `beta` then
+//! solves a scalar equation between 0 and 1 at each contact.
 
 use faer::Mat;
 
@@ -38,10 +38,10 @@ const RELAXATION: f64 = 0.7;
 
 /// Solves a problem with a bond at each contact; without bonds this is [`solve`].
 ///
-/// `r` is the whole reaction, dry part and bond force, and `u` is the end position `(dx_t, x_n)` of the step that the bonds
-/// know. [`Method::Auto`] takes semismooth Newton on all contacts together, with the tangent of the bonds, then sweeps with the
-/// exact solution of each bonded contact; any other method solves problems with frozen intensities until these settle.
-/// Success is claimed by the same errors as in [`solve`], taken from the dry part.
+/// `r` is the whole reaction, dry part and bond force, and `u` is the end position `(dx_t, x_n)` of the step that the
+/// bonds know. [`Method::Auto`] takes semismooth Newton on all contacts together, with the tangent of the bonds, then
+/// sweeps with the exact solution of each bonded contact; any other method solves problems with frozen intensities
+/// until these settle. Success is claimed by the same errors as in [`solve`], taken from the dry part.
 pub fn solve_bonded(
     problem: &ContactProblem,
     bonds: &[BondStep],

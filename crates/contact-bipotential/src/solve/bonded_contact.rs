@@ -21,8 +21,8 @@ pub(crate) fn spring<const D: usize>(bond: &BondStep, beta: f64) -> (Vector<D>, 
     (from_spatial(&stiffness), from_spatial(&shift))
 }
 
-/// The whole reaction of one bonded contact with `x = W r + b`: the exact solution for each intensity, and the intensity from
-/// its scalar equation, whose root always lies in \[0, 1\].
+/// The whole reaction of one bonded contact with `x = W r + b`: the exact solution for each intensity, and the
+/// intensity from its scalar equation, whose root always lies in \[0, 1\].
 pub(crate) fn bonded_contact<const D: usize>(
     w: &Matrix<D>,
     b: &Vector<D>,
@@ -57,8 +57,8 @@ pub(crate) fn bonded_contact<const D: usize>(
     r
 }
 
-/// For a bond that keeps the intensity `beta`: what the end position would make of the intensity, less `beta`, and the whole
-/// reaction.
+/// For a bond that keeps the intensity `beta`: what the end position would make of the intensity, less `beta`, and the
+/// whole reaction.
 fn at_intensity<const D: usize>(
     w: &Matrix<D>,
     b: &Vector<D>,

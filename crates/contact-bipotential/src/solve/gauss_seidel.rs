@@ -62,8 +62,8 @@ impl<'a, const D: usize> Sweeper<'a, D> {
         }
     }
 
-    /// One sweep, forwards or backwards. For a dense `W`, `u` must belong to `r` and does so afterwards, up to rounding;
-    /// for a block-sparse one it is not used.
+    /// One sweep, forwards or backwards. For a dense `W`, `u` must belong to `r` and does so afterwards, up to
+    /// rounding; for a block-sparse one it is not used.
     pub(crate) fn sweep(&self, r: &mut [f64], u: &mut [f64], backwards: bool) {
         let n = self.problem.contacts();
         for k in 0..n {

@@ -1,7 +1,10 @@
 //! GMRES with a preconditioner on the right \[Saad1986\].
 
-/// Solves `A x = rhs` to the residual `tolerance |rhs|`: the solution and the iterations it took, `None` if `steps` do not
-/// suffice or a number fails. `apply(v, out)` writes `A v`, `precondition` overwrites a vector with an approximate solution.
+use crate::flat::{dot, norm};
+
+/// Solves `A x = rhs` to the residual `tolerance |rhs|`: the solution and the iterations it took, `None` if `steps` do
+/// not suffice or a number fails. `apply(v, out)` writes `A v`, `precondition` overwrites a vector with an approximate
+/// solution.
 pub(crate) fn gmres(
     apply: impl Fn(&[f64], &mut [f64]),
     precondition: impl Fn(&mut [f64]),
@@ -9,12 +12,12 @@ pub(crate) fn gmres(
     tolerance: f64,
     steps: usize,
 ) -> Option<(Vec<f64>, usize)> {
-    let norm = length(rhs);
-    if norm == 0.0 || !norm.is_finite() {
+    let size = norm(rhs);
+    if size == 0.0 || !size.is_finite() {
         return None;
     }
-    let mut basis = vec![rhs.iter().map(|x| x / norm).collect::<Vec<f64>>()];
-    let mut reduced = Hessenberg::new(norm);
+    let mut basis = vec![rhs.iter().map(|x| x / size).collect::<Vec<f64>>()];
+    let mut reduced = Hessenberg::new(size);
     for k in 0..steps {
         let mut direction = basis[k].clone();
         precondition(&mut direction);
@@ -22,17 +25,17 @@ pub(crate) fn gmres(
         apply(&direction, &mut image);
         let mut column = Vec::with_capacity(k + 2);
         for q in &basis {
-            let h: f64 = q.iter().zip(&image).map(|(a, b)| a * b).sum();
+            let h = dot(q, &image);
             image.iter_mut().zip(q).for_each(|(x, q)| *x -= h * q);
             column.push(h);
         }
-        let rest = length(&image);
+        let rest = norm(&image);
         column.push(rest);
         let residual = reduced.push(column);
         if !residual.is_finite() {
             return None;
         }
-        if residual <= tolerance * norm || rest == 0.0 {
+        if residual <= tolerance * size || rest == 0.0 {
             let weights = reduced.solve();
             let mut sum = vec![0.0; rhs.len()];
             for (q, y) in basis.iter().zip(&weights) {
@@ -100,10 +103,6 @@ impl Hessenberg {
     }
 }
 
-fn length(x: &[f64]) -> f64 {
-    x.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,7 +123,7 @@ mod tests {
         let mut image = vec![0.0; n];
         apply(&x, &mut image);
         image.iter_mut().zip(&rhs).for_each(|(a, b)| *a -= b);
-        assert!(length(&image) < 2e-8 * length(&rhs) && steps > 3);
+        assert!(norm(&image) < 2e-8 * norm(&rhs) && steps > 3);
         assert!(gmres(apply, precondition, &rhs, 1e-8, 3).is_none());
     }
 }

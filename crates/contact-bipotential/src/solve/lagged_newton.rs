@@ -1,9 +1,9 @@
 //! Semismooth Newton on dense problems, with or without bonds, whose factors stay in use.
 //!
-//! The Newton matrix of one step or one problem, factorised once, preconditions GMRES on the next: a few products with `W`
-//! instead of a factorisation. Where that takes too long the factors are renewed. The matrix is that of the semismooth Newton
-//! method with three rows a contact whatever its mode, in axes that do not turn with the slip, so that it changes as little as
-//! possible.
+//! The Newton matrix of one step or one problem, factorised once, preconditions GMRES on the next: a few products with
+//! `W` instead of a factorisation. Where that takes too long the factors are renewed. The matrix is that of the
+//! semismooth Newton method with three rows a contact whatever its mode, in axes that do not turn with the slip, so
+//! that it changes as little as possible.
 
 use faer::Mat;
 

@@ -38,8 +38,8 @@ fn safe_step<const D: usize>(w: &Matrix<D>, scale: f64, mu: f64) -> f64 {
     1.0 / ((1.0 + 0.5 * mu) * largest.max(scale * f64::EPSILON))
 }
 
-/// Newton on `Z(r) = r - Proj(r*)` with its exact derivative \[Joli2008\]. It converges in about three steps, or not at all
-/// (some three in a hundred random contacts): then the best point met is returned, projected.
+/// Newton on `Z(r) = r - Proj(r*)` with its exact derivative \[Joli2008\]. It converges in about three steps, or not at
+/// all (some three in a hundred random contacts): then the best point met is returned, projected.
 pub(crate) fn joli_feng<const D: usize>(
     w: &Matrix<D>,
     scale: f64,

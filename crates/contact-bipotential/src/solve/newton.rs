@@ -1,11 +1,11 @@
 //! The linear step of a semismooth Newton method on the equation of Alart and Curnier \[Alart1991\].
 //!
-//! The unknown is `r`, with `v = W r + q + alpha w (r - centre)` (`alpha = 0` is the problem itself, `alpha > 0` a proximal
-//! point step), `w_c` the compliance scale and `rho = 1 / ((1 + alpha) w_c)`. Each contact is in one mode, by `z = r - rho v`:
-//! free (`z_n <= 0`): `dr = -r`; stuck: `v + dv = 0`; sliding along `e = z_t / |z_t|`: `v_n + dv_n = 0`,
-//! `e.(r_t + dr_t) = mu (r_n + dr_n)`, and across, with `p` the other tangent, `beta = mu z_n / |z_t| < 1`:
-//! `beta p.dv_t + (1 - beta) w_c p.dr_t = -w_c p.r_t`. Free contacts leave the linear system, sliding ones keep two unknowns
-//! (one in the plane).
+//! The unknown is `r`, with `v = W r + q + alpha w (r - centre)` (`alpha = 0` is the problem itself, `alpha > 0` a
+//! proximal point step), `w_c` the compliance scale and `rho = 1 / ((1 + alpha) w_c)`. Each contact is in one mode, by
+//! `z = r - rho v`: free (`z_n <= 0`): `dr = -r`; stuck: `v + dv = 0`; sliding along `e = z_t / |z_t|`:
+//! `v_n + dv_n = 0`, `e.(r_t + dr_t) = mu (r_n + dr_n)`, and across, with `p` the other tangent,
+//! `beta = mu z_n / |z_t| < 1`: `beta p.dv_t + (1 - beta) w_c p.dr_t = -w_c p.r_t`. Free contacts leave the linear
+//! system, sliding ones keep two unknowns (one in the plane).
 
 mod dense_system;
 mod sparse_rows;

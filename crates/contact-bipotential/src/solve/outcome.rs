@@ -66,11 +66,11 @@ impl Method {
 pub struct SolveSettings {
     /// The algorithm.
     pub method: Method,
-    /// Both errors ([`Errors::siconos`] and [`Errors::scale_free`]) must be at or below this \[-\]. Below about 1e-13 rounding
-    /// decides.
+    /// Both errors ([`Errors::siconos`] and [`Errors::scale_free`]) must be at or below this \[-\]. Below about 1e-13
+    /// rounding decides.
     pub tolerance: f64,
-    /// Largest number of iterations of the method: sweeps, Newton steps or projections. [`Method::Auto`] takes it for its
-    /// sweeps and a tenth of it for its Newton steps.
+    /// Largest number of iterations of the method: sweeps, Newton steps or projections. [`Method::Auto`] takes it for
+    /// its sweeps and a tenth of it for its Newton steps.
     pub max_iterations: usize,
 }
 

@@ -1,9 +1,9 @@
 //! Proximal points with an inner semismooth Newton method: the engine of accuracy.
 //!
-//! Each outer step solves the problem with `W + alpha diag(w_c)` instead of `W` and `q - alpha w_c r_k` instead of `q`, which
-//! has the same solutions at its fixed points, is never rank-deficient and, for large `alpha`, contractive enough for a
-//! plain Newton method. `alpha` is what a Newton step can stand: it falls fast while the inner
-//! iteration is easy, slowly while it works hard, and rises when it fails.
+//! Each outer step solves the problem with `W + alpha diag(w_c)` instead of `W` and `q - alpha w_c r_k` instead of `q`,
+//! which has the same solutions at its fixed points, is never rank-deficient and, for large `alpha`, contractive enough
+//! for a plain Newton method. `alpha` is what a Newton step can stand: it falls fast while the inner iteration is easy,
+//! slowly while it works hard, and rises when it fails.
 
 use crate::error_measure::ErrorMeasure;
 use crate::solve::iterate::Iterate;
@@ -12,7 +12,8 @@ use crate::solve::outcome::Work;
 
 /// The regularisation `alpha` \[-\] of a hyperstatic problem after a few sweeps.
 pub(crate) const MODERATE: f64 = 1e-3;
-/// Below this the rounding of `u`, magnified by `1 / alpha` in the null space of `W`, would flip contacts at random \[-\].
+/// Below this the rounding of `u`, magnified by `1 / alpha` in the null space of `W`, would flip contacts at random
+/// \[-\].
 const SMALLEST: f64 = 1e-7;
 /// Above this an outer step moves nothing \[-\].
 const LARGEST: f64 = 1e4;
@@ -25,6 +26,12 @@ const GAIN: f64 = 0.5;
 /// Below it, in so few Newton steps, the outer iteration is superlinear \[-\].
 const SUPERLINEAR: f64 = 0.1;
 const SUPERLINEAR_STEPS: usize = 2;
+/// Newton steps of an inner iteration up to which it was easy, or took some work, and the factor on `alpha` after such
+/// a one \[-\]: the easier it was, the closer to the problem itself the next one may come.
+const EASY: (usize, f64) = (2, 0.1);
+const FAIR: (usize, f64) = (4, 0.3);
+/// The factor after an inner iteration that took more steps \[-\].
+const HARD_FALL: f64 = 0.7;
 /// Inner residual over the last one above which a Newton step counts as a failure, and how many a guess may have \[-\].
 const STALLED: f64 = 0.7;
 const STALLS: usize = 2;
@@ -86,11 +93,8 @@ pub(crate) fn proximal<const D: usize>(
 
 /// Factor on `alpha` after an inner iteration of so many steps.
 fn fall(steps: usize) -> f64 {
-    match steps {
-        0..=2 => 0.1,
-        3..=4 => 0.3,
-        _ => 0.7,
-    }
+    let known = [EASY, FAIR].into_iter().find(|(most, _)| steps <= *most);
+    known.map_or(HARD_FALL, |(_, factor)| factor)
 }
 
 /// One proximal subproblem.

@@ -3,8 +3,8 @@
 //! Free if `b_n >= 0`, stuck if `-W^-1 b` lies in the cone; else the contact slides with `u_t = -a r_t`, `u_n = 0`, and
 //! `a > 0` solves `|r_t(a)| = mu r_n(a)`, whose square is the quartic of Bonnefon and Daviet \[Bonnefon2011\]. The
 //! unsquared equation is kept here: the right side times the determinant is a quadratic in `a`, the left the length of
-//! a vector linear in `a`, and for positive definite `W` the ends of `[0, a_max]` always bracket a root. Newton inside the
-//! bracket cannot fail and never meets the spurious roots that squaring brings.
+//! a vector linear in `a`, and for positive definite `W` the ends of `[0, a_max]` always bracket a root. Newton inside
+//! the bracket cannot fail and never meets the spurious roots that squaring brings.
 
 mod slip_root;
 
@@ -26,6 +26,13 @@ const LARGEST_ENTRY: f64 = 1e20;
 const POLISHING_STEPS: usize = 4;
 /// Projections from each start of the last resort.
 const PROJECTIONS: usize = 200;
+/// Their steps `rho` over the inverse mean diagonal of `W` \[-\]: one that still contracts where the largest eigenvalue
+/// is several times the mean, and the natural one.
+const PROJECTION_STEPS: [f64; 2] = [0.2, 1.0];
+/// Friction force over its limit \[-\] beyond which no refinement brings a stuck contact back into the cone.
+const FAR_OUTSIDE: f64 = 2.0;
+/// Steps of refinement of a stuck contact at most: one is the rule.
+const REFINEMENTS: usize = 2;
 
 /// One solved contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,7 +42,8 @@ pub struct SingleSolution<const D: usize> {
     pub r: Vector<D>,
     /// What the contact does.
     pub status: Status,
-    /// False where no solution was found (only for `W` singular or not positive definite): `r` is then the best point met.
+    /// False where no solution was found (only for `W` singular or not positive definite): `r` is then the best point
+    /// met.
     pub solved: bool,
 }
 
@@ -187,11 +195,10 @@ impl<const D: usize> SingleContact<D> {
     fn stuck(&self, b: &Vector<D>, mu: f64) -> Option<Vector<D>> {
         let inv = self.stick.as_ref()?;
         let mut r = -(inv * b);
-        // Far outside: not worth refining.
-        if tangential_norm(&r) > 2.0 * mu * r[D - 1].abs() {
+        if tangential_norm(&r) > FAR_OUTSIDE * mu * r[D - 1].abs() {
             return None;
         }
-        for _ in 0..2 {
+        for _ in 0..REFINEMENTS {
             let step = inv * self.u(&r, b);
             r -= step;
             if step.amax() <= REFINED * r.amax() {
@@ -261,7 +268,8 @@ impl<const D: usize> SingleContact<D> {
         residual(mu, &self.u(r, b), r)
     }
 
-    /// [`single_residual`] of a reaction in the units of the problem.
+    /// The same of a reaction in the units of the problem: `rho = 1 / w`, `w` near the mean diagonal of `W`, over the
+    /// largest of `b`, `w r`, `u` \[-\].
     fn residual_of(&self, b: &Vector<D>, r: &Vector<D>, mu: f64) -> f64 {
         let size = power_of_two(b.amax());
         let ratio = self.scale / size;
@@ -343,7 +351,7 @@ impl<const D: usize> SingleContact<D> {
         push[D - 1] = 1.0;
         consider(start);
         for first in [Vector::zeros(), start, push] {
-            for rho in [0.2, 1.0] {
+            for rho in PROJECTION_STEPS {
                 let mut r = first;
                 for _ in 0..PROJECTIONS {
                     r -= natural_map(mu, rho, &self.u(&r, b), &r);
@@ -419,18 +427,6 @@ pub fn solve_single<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64) -> Si
         return SingleSolution::free(false);
     }
     SingleContact::new(w).solve(b, mu)
-}
-
-/// Scale-free residual of one contact: `F` with `rho = 1 / w`, `w` near the mean diagonal, over the largest of `b`, `w r`, `u`
-/// \[-\].
-#[must_use]
-pub fn single_residual<const D: usize>(
-    w: &Matrix<D>,
-    b: &Vector<D>,
-    mu: f64,
-    r: &Vector<D>,
-) -> f64 {
-    SingleContact::new(w).residual_of(b, r, mu)
 }
 
 #[cfg(test)]

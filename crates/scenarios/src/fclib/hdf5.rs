@@ -67,14 +67,7 @@ fn global(source: &Source<'_>) -> Result<ContactProblem, FclibError> {
         e.1 = normal_last(e.1, dim);
     }
     let cone = Cone::from_dim(dim).map_err(|e| source.problem(e))?;
-    let problem = GlobalProblem {
-        m,
-        h,
-        f,
-        w: turned(&w, dim),
-        mu,
-        cone,
-    };
+    let problem = GlobalProblem::new(m, h, f, turned(&w, dim), mu, cone);
     problem.reduce().map_err(|e| source.problem(e))
 }
 
@@ -211,11 +204,7 @@ impl Source<'_> {
                 ),
             ));
         }
-        Ok(SparseEntries {
-            rows,
-            columns,
-            entries,
-        })
+        Ok(SparseEntries::new(rows, columns, entries))
     }
 
     /// Pairs of line and position of every stored entry.

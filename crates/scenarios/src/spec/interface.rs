@@ -1,7 +1,7 @@
 //! Contact interfaces.
 
 use contact_bipotential::Shape;
-use contact_bipotential::rcc::{Healing, Reference, Update};
+use contact_bipotential::rcc::{DEFAULT_THRESHOLD, Healing, Reference, Update};
 use serde::{Deserialize, Serialize};
 
 use super::Motion;
@@ -50,6 +50,7 @@ impl Interface {
 
 /// Bonds that break and heal: `b beta' = w - beta (C_n x_n^2 + C_t |u_t|^2)` with `0 <= beta <= 1` [Hu2022, eq. 12-15].
 /// A bond pulls back with the traction `beta^2 C` times its stretch.
+// Not the library's type: whether `C_t` was written as a number or a pair decides which paths (`C_t.1`) the scene has.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Adhesion {
@@ -89,11 +90,8 @@ pub struct Adhesion {
 }
 
 fn threshold() -> f64 {
-    THRESHOLD
+    DEFAULT_THRESHOLD
 }
-
-/// Default of [`Adhesion::threshold`] \[-\]: a bond of this intensity carries 1e-8 of a full one, which is nothing.
-const THRESHOLD: f64 = 1e-4;
 
 /// A stiffness along the two tangents.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

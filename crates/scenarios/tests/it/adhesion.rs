@@ -20,19 +20,15 @@ fn every_field_arrives_in_the_law() {
     let law = built.model.interfaces[0].adhesion.unwrap();
     assert_eq!(
         law,
-        contact_bipotential::Adhesion {
-            normal_stiffness: 2e9,
-            tangential_stiffness: [1e9, 3e9],
-            energy: 20.0,
-            viscosity: 0.1,
-            threshold: 1e-3,
-            healing_gap: 1e-6,
-            initial: 0.5,
-            healing: rcc::Healing::Recoverable,
-            reference: rcc::Reference::Ageing,
-            update: rcc::Update::EnergyConsistent,
-            bonded_friction: Some(0.7),
-        }
+        rcc::Adhesion::new(2e9, 1e9, 20.0, 0.1)
+            .with_tangential_stiffness([1e9, 3e9])
+            .with_threshold(1e-3)
+            .with_healing_gap(1e-6)
+            .with_initial(0.5)
+            .with_healing(rcc::Healing::Recoverable)
+            .with_reference(rcc::Reference::Ageing)
+            .with_update(rcc::Update::EnergyConsistent)
+            .with_bonded_friction(Some(0.7))
     );
 }
 

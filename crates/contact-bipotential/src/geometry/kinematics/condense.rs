@@ -18,7 +18,7 @@ const NO_UNKNOWN: u32 = u32::MAX;
 #[derive(Clone, Debug)]
 pub struct CompliancePart {
     offset: Vec<u32>,
-    c: DenseMatrix,
+    pub(super) c: DenseMatrix,
 }
 
 impl CompliancePart {
@@ -39,16 +39,6 @@ impl CompliancePart {
             });
         }
         Ok(Self { offset, c })
-    }
-
-    /// The compliance \[m/N\].
-    pub fn compliance(&self) -> &DenseMatrix {
-        &self.c
-    }
-
-    /// Gives the two arrays back, to be filled again.
-    pub fn into_arrays(self) -> (Vec<u32>, DenseMatrix) {
-        (self.offset, self.c)
     }
 }
 

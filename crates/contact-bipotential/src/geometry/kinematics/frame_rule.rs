@@ -16,6 +16,17 @@ const ANTIPODE: f64 = 1e-8;
 /// No rule is continuous on the whole sphere, so each interface carries an anchor, a frame about its typical
 /// normal `N`, and turns the anchor by the smallest rotation that takes `N` to `n`. The one exception, `n = -N`,
 /// is as far from the interface's normals as it can be. A fixed normal gives a fixed frame.
+///
+/// ```
+/// use contact_bipotential::FrameRule;
+/// use contact_bipotential::nalgebra::{Matrix3, Vector3};
+///
+/// let floor = FrameRule::spatial(Vector3::z());
+/// assert_eq!(floor.at(Vector3::z()), Matrix3::identity());
+/// // In the plane the tangent lies in it.
+/// let t1 = FrameRule::planar().at(Vector3::y()).column(0).into_owned();
+/// assert_eq!(t1, Vector3::x());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameRule {
     anchor: Option<Matrix3<f64>>,
@@ -25,6 +36,7 @@ impl FrameRule {
     /// The rule in space, anchored at the typical normal of an interface.
     ///
     /// `typical` need not be a unit vector; a closed surface has none, and then zero is welcome.
+    #[must_use]
     pub fn spatial(typical: Vector3<f64>) -> Self {
         let n = unit(typical)
             .or_else(|| unit(UNALIGNED))
@@ -45,6 +57,7 @@ impl FrameRule {
     }
 
     /// The rule of plane problems: `t1` in the plane, `t2 = -e_z`.
+    #[must_use]
     pub fn planar() -> Self {
         Self { anchor: None }
     }

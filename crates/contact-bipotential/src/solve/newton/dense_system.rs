@@ -67,8 +67,8 @@ impl<const D: usize> DenseSystem<'_, D> {
         }
     }
 
-    /// The part of the step that does not depend on the others: free contacts let go, sliding ones return to the friction
-    /// limit.
+    /// The part of the step that does not depend on the others: free contacts let go, sliding ones return to the
+    /// friction limit.
     fn known(&self, r: &[f64], dr: &mut [f64]) {
         for (c, mode) in self.modes.iter().enumerate() {
             let r = load::<D>(r, c);

@@ -2,6 +2,11 @@ use super::*;
 use nalgebra::{Matrix1, Matrix2, Matrix3, Vector1, Vector2, Vector3};
 use proptest::prelude::*;
 
+/// Scale-free residual of one contact \[-\].
+fn single_residual<const D: usize>(w: &Matrix<D>, b: &Vector<D>, mu: f64, r: &Vector<D>) -> f64 {
+    SingleContact::new(w).residual_of(b, r, mu)
+}
+
 fn by_rows(rows: [[f64; 3]; 3]) -> Matrix3<f64> {
     Matrix3::from(rows).transpose()
 }
@@ -112,7 +117,8 @@ fn odd_compliances_are_solved_or_reported() {
 
 #[test]
 fn a_slipping_contact_matches_a_scan_of_all_directions() {
-    // Independent of the quartic: for a given sliding direction u_n = 0 fixes r_n, and friction must oppose the velocity.
+    // Independent of the quartic: for a given sliding direction u_n = 0 fixes r_n, and friction must oppose the
+    // velocity.
     let mut random = Random(99);
     let mut compared = 0;
     for _ in 0..400 {
