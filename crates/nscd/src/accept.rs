@@ -1,14 +1,15 @@
 //! The end of a step: new state, forces of interfaces and supports, report.
 
+use contact_bipotential::Contact;
 use nalgebra::Vector3;
 
 use crate::bonds::{adhesive_energy, bonds_after};
 use crate::energy::{Accepted, audit};
 use crate::flat::{largest, round_off};
-use crate::iterate::Iterate;
 use crate::local::{relative_displacement, relative_velocity};
 use crate::model::{Model, point};
 use crate::monitor::Check;
+use crate::newton_iterate::NewtonIterate;
 use crate::report::{Resultant, StepReport};
 use crate::scheme::ContactLevel;
 use crate::state::{BondState, ContactState, ContactStatus, State};
@@ -19,11 +20,11 @@ const ON_CONE: f64 = 1e-9;
 /// A normal force below this part of the largest contact force is none \[-\].
 const NO_FORCE: f64 = 1e-12;
 
-/// Turns a converged iterate into the next state and its report. `fixed` tells the prescribed unknowns, `unforeseen` is the
-/// deepest penetration of nodes that no contact was predicted for \[m\].
+/// Turns a converged iterate into the next state and its report. `fixed` tells the prescribed unknowns, `unforeseen` is
+/// the deepest penetration of nodes that no contact was predicted for \[m\].
 pub(crate) fn accept(
     step: &StepProblem<'_>,
-    iterate: Iterate,
+    iterate: NewtonIterate,
     check: &Check,
     fixed: &[bool],
     unforeseen: f64,
@@ -41,21 +42,13 @@ pub(crate) fn accept(
         contacts: &contacts,
         adhesive_energy,
     };
-    let energy = audit(step, &iterate, &end);
-    // A gap of the size of the round-off of the positions is closed, with or without a force.
-    let touching = round_off(&positions);
-    let is_closed = |c: &&ContactState| c.status != ContactStatus::Open || c.gap <= touching;
     let report = StepReport {
-        time: step.end(),
-        dt: step.dt,
         newton_iterations: check.iteration,
         residual: check.relative_residual(),
         contact_error: check.contact_error,
-        contacts_closed: contacts.iter().filter(is_closed).count(),
         penetration: contacts.iter().map(|c| -c.gap).fold(unforeseen, f64::max),
-        energy,
-        interfaces: interface_resultants(model, &contacts, &positions),
-        supports: support_resultants(model, &support_force, &positions),
+        energy: audit(step, &iterate, &end),
+        ..resultants(step, &end, &positions)
     };
     let state = State {
         time: step.end(),
@@ -76,56 +69,75 @@ pub(crate) fn accept(
     (state, report)
 }
 
+/// What a report says of times, closed contacts, and forces of interfaces and supports.
+fn resultants(step: &StepProblem<'_>, end: &Accepted<'_>, positions: &[f64]) -> StepReport {
+    // A gap of the size of the round-off of the positions is closed, with or without a force.
+    let touching = round_off(positions);
+    let is_closed = |c: &&ContactState| c.status != ContactStatus::Open || c.gap <= touching;
+    StepReport {
+        time: step.end(),
+        dt: step.dt,
+        contacts_closed: end.contacts.iter().filter(is_closed).count(),
+        interfaces: interface_resultants(step.model, end.contacts, positions),
+        supports: support_resultants(step.model, end.support_force, positions),
+        ..StepReport::default()
+    }
+}
+
 /// What the supports have to carry \[N\]: minus the balance on prescribed unknowns.
-fn support_force(iterate: &Iterate, fixed: &[bool]) -> Vec<f64> {
+fn support_force(iterate: &NewtonIterate, fixed: &[bool]) -> Vec<f64> {
     let left = |i: usize| iterate.balance[i] + iterate.contact_force[i];
     (0..fixed.len())
         .map(|i| if fixed[i] { -left(i) } else { 0.0 })
         .collect()
 }
 
-fn contact_states(step: &StepProblem<'_>, iterate: &Iterate, moved: &[f64]) -> Vec<ContactState> {
+fn contact_states(
+    step: &StepProblem<'_>,
+    iterate: &NewtonIterate,
+    moved: &[f64],
+) -> Vec<ContactState> {
     let force_scale = largest(&iterate.r);
     let velocity = relative_velocity(step, &iterate.map, &iterate.v);
     let cone = iterate.map.cone();
-    let contacts = iterate.map.contacts.iter().enumerate();
-    contacts
-        .map(|(k, c)| {
-            let (force, x) = (iterate.force(k), iterate.local(k));
-            let motion = match step.model.scheme.contact {
-                ContactLevel::Position => x,
-                ContactLevel::Velocity => cone.spatial(&moved[cone.range(k)]),
-            };
-            let interface = &step.model.interfaces[c.interface];
-            let mut mu = interface.mu;
-            let bonded = iterate
-                .bonds
-                .get(k)
-                .filter(|_| interface.adhesion.is_some());
-            let bond = bonded.map(|bond| {
-                let at = bond.at(&x);
-                mu = bond.friction(mu, at.intensity);
-                BondState {
-                    intensity: at.intensity,
-                    separation: bond.finish(&x).separation,
-                    force: at.force,
-                }
-            });
-            let dry = force - bond.map_or(Vector3::zeros(), |bond| bond.force);
-            ContactState {
-                interface: c.interface,
-                slave_index: c.slave_index,
-                node: c.slave,
-                gap: c.gap,
-                normal_velocity: velocity[cone.normal(k)],
-                slip: [motion[0], motion[1]],
-                force,
-                frame: c.frame,
-                status: status(mu, dry, force_scale),
-                bond,
-            }
-        })
-        .collect()
+    let one = |(k, c): (usize, &Contact)| {
+        let force = iterate.force(k);
+        let motion = match step.model.scheme.contact {
+            ContactLevel::Position => iterate.local(k),
+            ContactLevel::Velocity => cone.spatial(&moved[cone.range(k)]),
+        };
+        let (bond, mu) = bond_state(step.model, iterate, k);
+        let dry = force - bond.map_or(Vector3::zeros(), |bond| bond.force);
+        ContactState {
+            interface: c.interface,
+            slave_index: c.slave_index,
+            node: c.slave,
+            gap: c.gap,
+            normal_velocity: velocity[cone.normal(k)],
+            slip: [motion[0], motion[1]],
+            force,
+            frame: c.frame,
+            status: status(mu, dry, force_scale),
+            bond,
+        }
+    };
+    iterate.map.contacts.iter().enumerate().map(one).collect()
+}
+
+/// The bond of contact `k`, if its interface has adhesion, and the coefficient of friction that it leaves.
+fn bond_state(model: &Model, iterate: &NewtonIterate, k: usize) -> (Option<BondState>, f64) {
+    let interface = &model.interfaces[iterate.map.contacts[k].interface];
+    let (Some(bond), Some(_)) = (iterate.bonds.get(k), &interface.adhesion) else {
+        return (None, interface.mu);
+    };
+    let x = iterate.local(k);
+    let at = bond.at(&x);
+    let state = BondState {
+        intensity: at.intensity,
+        separation: bond.finish(&x).separation,
+        force: at.force,
+    };
+    (Some(state), bond.friction(interface.mu, at.intensity))
 }
 
 /// What a contact does under the force `r` that contact and friction govern \[N\], in `(t1, t2, n)`.

@@ -3,7 +3,7 @@
 use contact_bipotential::Cone;
 use faer::Mat;
 
-/// Compliance of a contact along its stiffest direction, relative to the others, below which it counts as blocked \[-\].
+/// Compliance of a contact along its stiffest direction over that along the others, below which it is blocked \[-\].
 const BLOCKED: f64 = 1e-11;
 /// Largest part of that direction along the normal: beyond it is the gap that is blocked, not the slip \[-\].
 const UPRIGHT: f64 = 0.1;
@@ -15,8 +15,8 @@ pub(crate) struct BlockedDirection {
     along: [f64; 2],
 }
 
-/// The blocked directions of a contact problem, at most one a contact. On a curved surface the normal at a plane of symmetry may
-/// lean out of the plane, so that the direction that is blocked is only nearly a tangent.
+/// The blocked directions of a contact problem, at most one a contact. On a curved surface the normal at a plane of
+/// symmetry may lean out of the plane, so that the direction that is blocked is only nearly a tangent.
 pub(crate) fn blocked_directions(w: &Mat<f64>, q: &[f64], cone: Cone) -> Vec<BlockedDirection> {
     let cone = cone.dim();
     let longest = q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -44,8 +44,8 @@ pub(crate) fn blocked_directions(w: &Mat<f64>, q: &[f64], cone: Cone) -> Vec<Blo
 
 /// Takes the blocked directions out of a contact problem: no force along them, no slip.
 ///
-/// Friction there does no work, and the law leaves it open between the bounds of the cone. A solver would leave it anywhere,
-/// where it uses up the friction that the other tangent needs.
+/// Friction there does no work, and the law leaves it open between the bounds of the cone. A solver would leave it
+/// anywhere, where it uses up the friction that the other tangent needs.
 pub(crate) fn take_out(blocked: &[BlockedDirection], w: &mut Mat<f64>, q: &mut [f64], cone: Cone) {
     let tangents = cone.dim() - 1;
     for BlockedDirection { row, along } in blocked {

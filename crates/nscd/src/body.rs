@@ -23,8 +23,10 @@ const LAST_SOLVE: f64 = 1e-6;
 const SOLVES: usize = 3;
 /// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown \[-\].
 const FLOATING: f64 = 1e-4;
-/// Part of the diagonal that an indefinite matrix is first shifted by \[-\]; ten times as much each time, up to the last.
+/// Part of the diagonal that an indefinite matrix is first shifted by \[-\].
 const FIRST_SHIFT: f64 = 1e-4;
+/// Factor from one shift to the next \[-\]: few tries, and hardly more than ten times what suffices.
+const NEXT_SHIFT: f64 = 10.0;
 /// A matrix that is indefinite after a shift beyond this part of its diagonal is given up \[-\].
 const LAST_SHIFT: f64 = 10.0;
 
@@ -51,8 +53,8 @@ pub(crate) struct BodySystem {
     contraction: Option<f64>,
     /// Stiffness of contacts in the factor in use; the matrix without it was not definite.
     contacts: Vec<ContactStiffness>,
-    /// Diagonal of the matrix in use and of its stiffness part, one a dof \[N/m\], without what was added to make it definite:
-    /// round-off does not grow with that.
+    /// Diagonal of the matrix in use and of its stiffness part, one a dof \[N/m\], without what was added to make it
+    /// definite: round-off does not grow with that.
     diagonals: Vec<[f64; 2]>,
     /// Least that the stiffness part was in any matrix so far \[N/m\].
     softest: Vec<f64>,
@@ -71,7 +73,7 @@ impl BodySystem {
             neighbours: &neighbours,
         };
         let (dim, candidate) = (model.solid.dim(), model.candidates());
-        let unknown = |n: &u32| (0..dim).any(|c| !fixed[dim * *n as usize + c]);
+        let unknown = |n: &u32| dofs_of(*n, dim).any(|d| !fixed[d as usize]);
         let nodes = model.solid.bodies().iter().enumerate();
         nodes
             .filter(|(_, nodes)| nodes.iter().any(unknown))
@@ -85,7 +87,7 @@ impl BodySystem {
     }
 
     /// Orders and analyses the body `index`; `candidate` tells the nodes that may touch.
-    pub(crate) fn new(
+    fn new(
         solid: &Solid,
         graph: Graph<'_>,
         index: usize,
@@ -93,34 +95,23 @@ impl BodySystem {
         candidate: &[bool],
     ) -> Result<Self, NscdError> {
         let dim = solid.dim();
-        let free = |&n: &u32| (0..dim).any(|c| !fixed[dim * n as usize + c]);
-        let nodes: Vec<u32> = solid.bodies()[index].iter().copied().filter(free).collect();
-        let (last, interior): (Vec<u32>, Vec<u32>) =
-            nodes.iter().partition(|&&n| candidate[n as usize]);
-        let order = elimination_order(graph, &interior, &last);
         let free_dofs = |nodes: &[u32]| -> Vec<u32> {
-            let all = nodes
-                .iter()
-                .flat_map(|&n| (0..dim).map(move |c| (dim * n as usize + c) as u32));
-            all.filter(|&d| !fixed[d as usize]).collect()
+            let all = nodes.iter().flat_map(|n| dofs_of(*n, dim));
+            all.filter(|d| !fixed[*d as usize]).collect()
         };
+        let free = |n: &&u32| dofs_of(**n, dim).any(|d| !fixed[d as usize]);
+        let nodes = solid.bodies()[index].iter().filter(free);
+        let (last, interior): (Vec<u32>, Vec<u32>) = nodes.partition(|n| candidate[**n as usize]);
+        let order = elimination_order(graph, &interior, &last);
         let first_candidate = free_dofs(&order[..interior.len()]).len();
         let dofs = free_dofs(&order);
-        let mut equation = vec![u32::MAX; solid.dof_count()];
-        for (k, &d) in dofs.iter().enumerate() {
-            equation[d as usize] = k as u32;
-        }
-        let pattern = SymmetricPattern::new(solid, &equation, dofs.len())?;
-        let lower = LowerPattern {
-            pointers: pattern.column_pointers(),
-            rows: pattern.row_indices(),
-        };
         let n = dofs.len();
+        let pattern = SymmetricPattern::new(solid, &equations(&dofs, solid.dof_count()), n)?;
         Ok(Self {
             index,
             dim,
             floating: false,
-            factor: Factor::new(lower)?,
+            factor: Factor::new(lower_of(&pattern))?,
             values: vec![0.0; pattern.row_indices().len()],
             dofs,
             pattern,
@@ -206,9 +197,9 @@ impl BodySystem {
             .collect()
     }
 
-    /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made definite by the stiffness of
-    /// `contacts`, those of other bodies are ignored, and if that does not suffice by adding to its diagonal, as little as needed
-    /// in powers of ten. It is counted.
+    /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made definite by the
+    /// stiffness of `contacts`, those of other bodies are ignored, and if that does not suffice by adding to its
+    /// diagonal, as little as needed in powers of ten. It is counted.
     pub(crate) fn refactor(
         &mut self,
         elements: &Elements<'_>,
@@ -262,8 +253,8 @@ impl BodySystem {
         }
     }
 
-    /// Adds a part of each diagonal entry to itself: in a graded mesh, the more so around an axis, the largest is no measure for
-    /// the others.
+    /// Adds a part of each diagonal entry to itself: in a graded mesh, the more so around an axis, the largest is no
+    /// measure for the others.
     fn stiffen_each(&mut self, part: f64) {
         let least = f64::EPSILON * self.largest_diagonal();
         for k in 0..self.dofs.len() {
@@ -338,17 +329,13 @@ impl BodySystem {
                     node,
                 });
             }
-            shift *= 10.0;
+            shift *= NEXT_SHIFT;
         }
     }
 
     fn factorize(&mut self, counters: &mut Counters) -> Result<(), Indefinite> {
         counters.factorizations += 1;
-        let lower = LowerPattern {
-            pointers: self.pattern.column_pointers(),
-            rows: self.pattern.row_indices(),
-        };
-        self.factor.factorize(lower, &self.values)
+        self.factor.factorize(lower_of(&self.pattern), &self.values)
     }
 
     /// The compliance of the candidate surface, from the trailing block of the factor.
@@ -424,10 +411,7 @@ impl BodySystem {
         if scale == 0.0 {
             return Ok(());
         }
-        let lower = LowerPattern {
-            pointers: self.pattern.column_pointers(),
-            rows: self.pattern.row_indices(),
-        };
+        let lower = lower_of(&self.pattern);
         let mut worst = f64::INFINITY;
         for attempt in 1..=SOLVES {
             let mut left = self.rhs.clone();
@@ -454,3 +438,27 @@ impl BodySystem {
         })
     }
 }
+
+/// The dofs of a node.
+fn dofs_of(node: u32, dim: usize) -> impl Iterator<Item = u32> {
+    (0..dim as u32).map(move |c| dim as u32 * node + c)
+}
+
+/// The equation of each of `count` dofs, those of a body in their order; `u32::MAX` where there is none.
+fn equations(dofs: &[u32], count: usize) -> Vec<u32> {
+    let mut equation = vec![u32::MAX; count];
+    for (k, &d) in dofs.iter().enumerate() {
+        equation[d as usize] = k as u32;
+    }
+    equation
+}
+
+fn lower_of(pattern: &SymmetricPattern) -> LowerPattern<'_> {
+    LowerPattern {
+        pointers: pattern.column_pointers(),
+        rows: pattern.row_indices(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

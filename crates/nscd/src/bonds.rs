@@ -7,9 +7,9 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::error::{NscdError, StepFailure};
 use crate::flat::round_off;
-use crate::iterate::Iterate;
 use crate::memory::ContactMemory;
 use crate::model::Model;
+use crate::newton_iterate::NewtonIterate;
 use crate::scheme::ContactLevel;
 use crate::state::{NodeBond, State};
 use crate::step_problem::StepProblem;
@@ -74,9 +74,9 @@ pub(crate) fn bond_steps(step: &StepProblem<'_>, map: &ContactMap, u: &[f64]) ->
     map.contacts.iter().map(one).collect()
 }
 
-/// The axes of what a bond remembers, where the master's material has taken them by the end of the step. On an obstacle they
-/// were the frame of the contact: any other normal to which the separation were turned could lie far from the contact's, and
-/// on the way there and back by another normal a vector turns about both.
+/// The axes of what a bond remembers, where the master's material has taken them by the end of the step. On an obstacle
+/// they were the frame of the contact: any other normal to which the separation were turned could lie far from the
+/// contact's, and on the way there and back by another normal a vector turns about both.
 fn stored_axes(
     step: &StepProblem<'_>,
     contact: &Contact,
@@ -94,8 +94,8 @@ fn stored_axes(
     }
 }
 
-/// A tangential vector with components in the axes `from` (two tangents and their normal), in the axes `to`: turned with the
-/// normal the shortest way, so that there and back is nothing.
+/// A tangential vector with components in the axes `from` (two tangents and their normal), in the axes `to`: turned
+/// with the normal the shortest way, so that there and back is nothing.
 fn turned(components: [f64; 2], from: &Matrix3<f64>, to: &Matrix3<f64>) -> [f64; 2] {
     let v = from * Vector3::new(components[0], components[1], 0.0);
     let axis = from.column(2).cross(&to.column(2));
@@ -111,7 +111,7 @@ fn turned(components: [f64; 2], from: &Matrix3<f64>, to: &Matrix3<f64>) -> [f64;
 /// What every slave node remembers after the step. A pair that the search has lost is a new one when it meets again.
 pub(crate) fn bonds_after(
     step: &StepProblem<'_>,
-    iterate: &Iterate,
+    iterate: &NewtonIterate,
     positions: &[f64],
 ) -> Vec<Vec<NodeBond>> {
     let (model, dim) = (step.model, step.model.solid.dim());
@@ -177,8 +177,8 @@ pub(crate) fn lost_bonds(model: &Model, now: &State, map: &ContactMap) -> u64 {
     lost
 }
 
-/// The bonds at the start, given the contacts there: those of touching pairs have the initial intensity, at most what their gap
-/// leaves where intensities follow it at once.
+/// The bonds at the start, given the contacts there: those of touching pairs have the initial intensity, at most what
+/// their gap leaves where intensities follow it at once.
 pub(crate) fn initial_bonds(
     model: &Model,
     positions: &[f64],
@@ -208,7 +208,7 @@ pub(crate) fn initial_bonds(
 /// A converged step is not believed where another end of it may satisfy the law too.
 pub(crate) fn refuse_snap(
     step: &StepProblem<'_>,
-    iterate: &Iterate,
+    iterate: &NewtonIterate,
     memory: &ContactMemory,
 ) -> Result<(), StepFailure> {
     for (k, (c, bond)) in iterate.map.contacts.iter().zip(&iterate.bonds).enumerate() {

@@ -1,8 +1,8 @@
-//! The contact problem of one iteration: which forces, together with the residual, make the linearised bodies obey the contact
-//! law.
+//! The contact problem of one iteration: which forces, together with the residual, make the linearised bodies obey the
+//! contact law.
 
 use contact_bipotential::{
-    BondStep, Cone, ContactMap, ContactProblem, Delassus, SequenceSolver, SolveSettings,
+    BondStep, Cone, ContactMap, ContactProblem, Delassus, Outcome, SequenceSolver, SolveSettings,
     freeze_bonds,
 };
 use faer::Mat;
@@ -11,9 +11,9 @@ use crate::blocked::{blocked_directions, take_out};
 use crate::body::BodySystem;
 use crate::error::StepFailure;
 use crate::flat::round_off;
-use crate::iterate::Iterate;
 use crate::memory::{ContactMemory, filtered};
 use crate::model::Model;
+use crate::newton_iterate::NewtonIterate;
 use crate::operator::ContactOperator;
 use crate::report::Counters;
 use crate::scheme::ContactLevel;
@@ -64,7 +64,7 @@ impl ContactSolver {
     pub(crate) fn linearise(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         bodies: &mut [BodySystem],
         memory: &mut ContactMemory,
         counters: &mut Counters,
@@ -123,16 +123,7 @@ impl ContactSolver {
         counters.contacts_max = counters.contacts_max.max(map.len() as u64);
         let error = outcome.error.max(outcome.error_scale_free);
         if error > tolerance.max(model.settings.contact_tolerance) {
-            let errors = outcome.diagnostics.iter().enumerate();
-            let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error));
-            let worst = map.contacts.get(worst.map_or(0, |(k, _)| k));
-            return Err(StepFailure::Contact {
-                contacts: map.len(),
-                error: outcome.error_scale_free,
-                method: outcome.method,
-                bonded: !bonds.is_empty(),
-                contact: worst.map(|c| model.place(c)),
-            });
+            return Err(unsolved(model, map, &outcome, !bonds.is_empty()));
         }
         let mut force = vec![0.0; model.dof_count()];
         map.apply_transpose(r, &mut force);
@@ -171,9 +162,23 @@ impl ContactSolver {
     }
 }
 
+/// Why a contact problem does not count as solved.
+fn unsolved(model: &Model, map: &ContactMap, outcome: &Outcome, bonded: bool) -> StepFailure {
+    let errors = outcome.diagnostics.iter().enumerate();
+    let worst = errors.max_by(|a, b| a.1.error.total_cmp(&b.1.error));
+    let worst = map.contacts.get(worst.map_or(0, |(k, _)| k));
+    StepFailure::Contact {
+        contacts: map.len(),
+        error: outcome.error_scale_free,
+        method: outcome.method,
+        bonded,
+        contact: worst.map(|c| model.place(c)),
+    }
+}
+
 /// Local variable that every candidate would have without contact forces \[m\].
 fn free_motion(
-    iterate: &Iterate,
+    iterate: &NewtonIterate,
     bodies: &mut [BodySystem],
     counters: &mut Counters,
 ) -> Result<Vec<f64>, StepFailure> {
@@ -197,9 +202,9 @@ fn selected(all: &[f64], cone: Cone, keep: &[bool]) -> Vec<f64> {
         .collect()
 }
 
-/// Which candidates have a bond or may form one: at the present gap, or at the `free` one that they would have without forces.
-/// Bonds of neighbours may hold a surface so near that it stays within reach of its own.
-fn acting(iterate: &Iterate, free: &[f64]) -> Vec<bool> {
+/// Which candidates have a bond or may form one: at the present gap, or at the `free` one that they would have without
+/// forces. Bonds of neighbours may hold a surface so near that it stays within reach of its own.
+fn acting(iterate: &NewtonIterate, free: &[f64]) -> Vec<bool> {
     let cone = iterate.map.cone();
     let one = |(k, bond): (usize, &BondStep)| {
         let normal = cone.normal(k);
@@ -208,9 +213,9 @@ fn acting(iterate: &Iterate, free: &[f64]) -> Vec<bool> {
     iterate.bonds.iter().enumerate().map(one).collect()
 }
 
-/// Which candidates enter the contact problem: those with a force or a bond, and those that the correction brings near. The
-/// others are checked with their exact gap in the next iteration.
-fn entering(model: &Model, iterate: &Iterate, free: &[f64], acts: &[bool]) -> Vec<bool> {
+/// Which candidates enter the contact problem: those with a force or a bond, and those that the correction brings near.
+/// The others are checked with their exact gap in the next iteration.
+fn entering(model: &Model, iterate: &NewtonIterate, free: &[f64], acts: &[bool]) -> Vec<bool> {
     let map = &iterate.map;
     if model.scheme.contact == ContactLevel::Velocity {
         return vec![true; map.len()];
@@ -229,7 +234,7 @@ fn entering(model: &Model, iterate: &Iterate, free: &[f64], acts: &[bool]) -> Ve
 /// A contact between nodes that are driven on both sides has no compliance: no force of it can mend a penetration.
 fn refuse_immovable(
     model: &Model,
-    iterate: &Iterate,
+    iterate: &NewtonIterate,
     map: &ContactMap,
     w: &Mat<f64>,
     q: &[f64],

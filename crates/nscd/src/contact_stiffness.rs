@@ -1,14 +1,14 @@
 //! The stiffness of closed contacts, added to a tangent that is not definite without it: the augmentation of augmented
 //! Lagrangians.
 //!
-//! A pressed surface is held by what it touches; its tangent alone may well be indefinite, because the stress under it would make
-//! it buckle if nothing were there. A stiffness along the normal of a closed contact changes nothing of the solution: there the
-//! normal motion is known beforehand, it closes what gap is left.
+//! A pressed surface is held by what it touches; its tangent alone may well be indefinite, because the stress under it
+//! would make it buckle if nothing were there. A stiffness along the normal of a closed contact changes nothing of the
+//! solution: there the normal motion is known beforehand, it closes what gap is left.
 
 use contact_bipotential::{Contact, ContactKey, ContactMap};
 use nalgebra::Vector3;
 
-use crate::iterate::Iterate;
+use crate::newton_iterate::NewtonIterate;
 
 /// Stiffness of a contact over the largest diagonal entry of its node \[-\].
 const STIFFNESS: f64 = 10.0;
@@ -25,7 +25,7 @@ pub(crate) struct ContactStiffness {
 }
 
 /// The pressed contacts with rigid masters. A deformable master would couple the matrices of two bodies.
-pub(crate) fn contact_stiffness(iterate: &Iterate) -> Vec<ContactStiffness> {
+pub(crate) fn contact_stiffness(iterate: &NewtonIterate) -> Vec<ContactStiffness> {
     let contacts = iterate.map.contacts.iter().enumerate();
     let pressed = contacts.filter(|(k, c)| iterate.is_pressed(*k) && c.stencil.nodes().len() == 1);
     let along_normal = |(_, c): (usize, &Contact)| ContactStiffness {
@@ -57,7 +57,8 @@ impl ContactStiffness {
         }
     }
 
-    /// What the stiffness does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no force.
+    /// What the stiffness does while the gap closes, for the right-hand side \[N\]; nothing once the contact has no
+    /// force.
     pub(crate) fn load(&self, map: &ContactMap, x: &[f64], r: &[f64], rhs: &mut [f64]) {
         let Some(k) = map.find(self.key) else {
             return;

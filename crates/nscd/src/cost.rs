@@ -1,9 +1,12 @@
 //! What work costs, from operation counts: clocks would make runs differ from each other.
 
-/// Estimated seconds of the parts of an iteration. Only their ratios matter: they decide when a new tangent pays.
+/// Estimated seconds of the parts of an iteration. Only their ratios matter, and they decide one thing: whether a new
+/// tangent pays, that is whether it costs less than the iterations that it saves (`Monitor::is_stale`). `Settings::lag`
+/// scales the cost of a tangent against that of an iteration.
 ///
-/// Estimates for one thread of a usual core, to be compared with the phases of `summary.json` over its counters; no record of
-/// their measurement is kept. `Settings::lag` scales the cost of a tangent against them.
+/// Round numbers for one thread of a usual core. They are constants, not measured at the start, so that runs repeat.
+/// `cargo test --release -p nscd costs_on_one_thread -- --ignored --nocapture` measures each and prints it beside the
+/// one in use.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CostModel {
     /// Multiplications and additions of a factorization or condensation in a second \[1/s\].
@@ -31,7 +34,8 @@ pub(crate) const COSTS: CostModel = CostModel {
 };
 
 impl CostModel {
-    /// A factorization of so many operations with the condensation onto `candidates` unknowns, of a matrix with `entries` \[s\].
+    /// A factorization of so many operations with the condensation onto `candidates` unknowns, of a matrix with
+    /// `entries` \[s\].
     pub(crate) fn factorization(&self, flops: f64, candidates: usize, entries: usize) -> f64 {
         let condensation = (candidates as f64).powi(3);
         (flops + condensation) / self.factor_rate + entries as f64 * self.gathered_entry

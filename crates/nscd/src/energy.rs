@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::flat::{difference, dot};
-use crate::iterate::Iterate;
 use crate::local::relative_velocity;
+use crate::newton_iterate::NewtonIterate;
 use crate::report::EnergyTerms;
 use crate::scheme::{ContactLevel, Inertia};
 use crate::state::ContactState;
@@ -22,9 +22,13 @@ pub(crate) struct Accepted<'a> {
     pub(crate) adhesive_energy: f64,
 }
 
-/// Energy terms of an accepted step. With `du` the displacement of the step, the force balance times `du` gives the energy
-/// equation of the step.
-pub(crate) fn audit(step: &StepProblem<'_>, iterate: &Iterate, end: &Accepted<'_>) -> EnergyTerms {
+/// Energy terms of an accepted step. With `du` the displacement of the step, the force balance times `du` gives the
+/// energy equation of the step.
+pub(crate) fn audit(
+    step: &StepProblem<'_>,
+    iterate: &NewtonIterate,
+    end: &Accepted<'_>,
+) -> EnergyTerms {
     let mut terms = bulk_terms(step, iterate, end.support_force);
     contact_terms(step, iterate, end.moved, end.contacts, &mut terms);
     bond_terms(step, iterate, end.adhesive_energy, &mut terms);
@@ -32,7 +36,11 @@ pub(crate) fn audit(step: &StepProblem<'_>, iterate: &Iterate, end: &Accepted<'_
 }
 
 /// Everything but contact.
-fn bulk_terms(step: &StepProblem<'_>, iterate: &Iterate, support_force: &[f64]) -> EnergyTerms {
+fn bulk_terms(
+    step: &StepProblem<'_>,
+    iterate: &NewtonIterate,
+    support_force: &[f64],
+) -> EnergyTerms {
     let (model, now) = (step.model, step.now);
     let xi = step.weights.stiffness;
     let du = difference(&iterate.u, &now.u);
@@ -60,7 +68,7 @@ fn bulk_terms(step: &StepProblem<'_>, iterate: &Iterate, support_force: &[f64]) 
 /// Friction, impact, curved gaps, and the work of moving obstacles.
 fn contact_terms(
     step: &StepProblem<'_>,
-    iterate: &Iterate,
+    iterate: &NewtonIterate,
     moved: &[f64],
     contacts: &[ContactState],
     terms: &mut EnergyTerms,
@@ -98,21 +106,26 @@ fn contact_terms(
 }
 
 /// Mean of the relative velocities before and after the step, in the frames of the contacts \[m/s\].
-fn mean_velocity(step: &StepProblem<'_>, iterate: &Iterate) -> Vec<f64> {
+fn mean_velocity(step: &StepProblem<'_>, iterate: &NewtonIterate) -> Vec<f64> {
     let ends = step.now.v.iter().zip(&iterate.v);
     let mean: Vec<f64> = ends.map(|(a, b)| 0.5 * (a + b)).collect();
     relative_velocity(step, &iterate.map, &mean)
 }
 
 /// How far a contact closed since the start that its bond remembers \[m\].
-fn bond_closing(iterate: &Iterate, k: usize) -> f64 {
+fn bond_closing(iterate: &NewtonIterate, k: usize) -> f64 {
     let gap = iterate.map.contacts[k].gap.max(0.0);
     iterate.bonds.get(k).map_or(0.0, |b| b.start().gap - gap)
 }
 
 /// Adhesive energy, dissipation and integration error of the bonds. Bonds of pairs that the search has lost
 /// are gone; what they stored counts as an error of the integration.
-fn bond_terms(step: &StepProblem<'_>, iterate: &Iterate, adhesive: f64, terms: &mut EnergyTerms) {
+fn bond_terms(
+    step: &StepProblem<'_>,
+    iterate: &NewtonIterate,
+    adhesive: f64,
+    terms: &mut EnergyTerms,
+) {
     terms.adhesive = adhesive - step.now.adhesive_energy;
     terms.bond_error -= terms.adhesive;
     for (k, bond) in iterate.bonds.iter().enumerate() {

@@ -7,6 +7,8 @@ use crate::model::Model;
 
 /// Part of the size of a rigid motion that supports have to hinder \[-\].
 const HINDERED: f64 = 1e-9;
+/// Rigid motions of a body in space: three displacements and three turns. In the plane there are fewer.
+const MOTIONS: usize = 6;
 
 /// Whether a rigid motion of the body with these nodes moves no prescribed unknown.
 pub(crate) fn is_floating(model: &Model, nodes: &[u32], fixed: &[bool]) -> bool {
@@ -29,16 +31,19 @@ pub(crate) fn is_floating(model: &Model, nodes: &[u32], fixed: &[bool]) -> bool 
 
 fn rigid_count(symmetry: Symmetry) -> usize {
     match symmetry {
-        Symmetry::None => 6,
+        Symmetry::None => MOTIONS,
+        // Two displacements and the turn in the plane.
+        Symmetry::PlaneStrain => 3,
+        // The displacement along the axis: a turn about it is none of the plane.
         Symmetry::Axisymmetric => 1,
-        _ => 3,
     }
 }
 
 /// Component `c` of every rigid motion at the place `x`; those that do not exist are zero.
-fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; 6] {
-    let mut row = [0.0; 6];
+fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; MOTIONS] {
+    let mut row = [0.0; MOTIONS];
     match (symmetry, c) {
+        // A displacement along the radius strains the ring.
         (Symmetry::Axisymmetric, 0) => {}
         (Symmetry::Axisymmetric, _) => row[0] = 1.0,
         (Symmetry::None, _) => {
@@ -48,7 +53,7 @@ fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; 6] {
             row[3 + i] = x[j];
             row[3 + j] = -x[i];
         }
-        _ => {
+        (Symmetry::PlaneStrain, _) => {
             row[c] = 1.0;
             row[2] = if c == 0 { -x[1] } else { x[0] };
         }
@@ -57,8 +62,8 @@ fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; 6] {
 }
 
 /// Rank by elimination with full pivoting.
-fn rank(mut rows: Vec<[f64; 6]>) -> usize {
-    for rank in 0..6 {
+fn rank(mut rows: Vec<[f64; MOTIONS]>) -> usize {
+    for rank in 0..MOTIONS {
         let entries = rows.iter().enumerate().skip(rank);
         let entries =
             entries.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, x)| (x.abs(), i, j)));
@@ -71,11 +76,11 @@ fn rank(mut rows: Vec<[f64; 6]>) -> usize {
         let pivot = rows[rank];
         for row in &mut rows[rank + 1..] {
             let factor = row[j] / pivot[j];
-            (0..6).for_each(|k| row[k] -= factor * pivot[k]);
+            (0..MOTIONS).for_each(|k| row[k] -= factor * pivot[k]);
             row[j] = 0.0;
         }
     }
-    6
+    MOTIONS
 }
 
 #[cfg(test)]

@@ -3,9 +3,9 @@
 use contact_bipotential::law_residual;
 
 use crate::flat::largest;
-use crate::iterate::Iterate;
 use crate::memory::ContactMemory;
 use crate::model::Model;
+use crate::newton_iterate::NewtonIterate;
 
 /// Error of the contact law at an iterate.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,12 +18,12 @@ pub(crate) struct LawError {
 }
 
 impl LawError {
-    /// Error of the contact law with exact gaps; `fallback` is the stiffness \[N/m\] of contacts that never entered a contact
-    /// problem, `blur` the gap \[m\] that cannot be told from round-off over the tolerance.
+    /// Error of the contact law with exact gaps; `fallback` is the stiffness \[N/m\] of contacts that never entered a
+    /// contact problem, `blur` the gap \[m\] that cannot be told from round-off over the tolerance.
     pub(crate) fn of(
         model: &Model,
         memory: &ContactMemory,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         fallback: f64,
         blur: f64,
     ) -> Self {

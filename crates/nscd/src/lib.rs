@@ -17,7 +17,7 @@
 //! body            search                       matrix and factor; what touches what
 //! bonds           energy          law          adhesion; audit; error of the contact law
 //! contact_stiffness                            pressed contacts in an indefinite tangent
-//! iterate                                      what Newton's method improves
+//! newton_iterate                               what Newton's method improves
 //! local           tunnelling                   slip and gap; steps that are too long
 //! step_problem    unsupported                  what does not change in a step; bodies that nothing holds
 //! elements        memory          floating     forces and tangents; contact forces of the nodes; rigid motions
@@ -25,6 +25,11 @@
 //! scheme          report          linear       weights; what is told; sparse Cholesky factor
 //! error  state  settings  ordering  blocked  swept  cost  flat
 //! ```
+
+/// The example of the README is a doc test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
 
 mod accept;
 mod blocked;
@@ -38,7 +43,6 @@ mod energy;
 mod error;
 mod flat;
 mod floating;
-mod iterate;
 mod law;
 mod linear;
 mod local;
@@ -46,6 +50,7 @@ mod march;
 mod memory;
 mod model;
 mod monitor;
+mod newton_iterate;
 mod operator;
 mod ordering;
 mod overlap;

@@ -6,8 +6,8 @@ use crate::flat::difference;
 use crate::scheme::ContactLevel;
 use crate::step_problem::StepProblem;
 
-/// Local variable of every contact of `map` at an iterate \[m\]: slip of the step and gap, or at the velocity level the end
-/// velocity times the displacement that a unit of it stands for.
+/// Local variable of every contact of `map` at an iterate \[m\]: slip of the step and gap, or at the velocity level the
+/// end velocity times the displacement that a unit of it stands for.
 pub(crate) fn local_variable(
     step: &StepProblem<'_>,
     map: &ContactMap,

@@ -4,7 +4,7 @@ use crate::error::{NscdError, StepFailure};
 use crate::model::Model;
 use crate::report::{EnergyTerms, Overlap, Rejection, StepReport};
 use crate::state::State;
-use crate::stepper::Stepper;
+use crate::stepper::{SAME_TIME, Stepper};
 
 /// Is told about every accepted and rejected step.
 pub trait Observer {
@@ -39,6 +39,7 @@ impl Observer for () {
 
 /// Sums and extremes over the accepted steps.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Totals {
     /// Energy at the start \[J\].
     pub initial_energy: f64,
@@ -178,15 +179,27 @@ struct Control {
     grown: bool,
 }
 
-/// Patience never exceeds this multiple of its setting.
+/// Patience never exceeds this multiple of its setting \[-\]: growth that always fails costs little, one step in 32 by
+/// default, and growth that succeeds again is not missed for long.
 const MOST_PATIENCE: usize = 16;
+/// Breakpoints from this part of the end time on are the end \[-\]: a table that ends with the run may miss it by
+/// round-off.
+const BEFORE_END: f64 = 1.0 - 1e-12;
+/// A rest of the way to a target below this part of a step gets no step of its own: the steps before it stretch \[-\].
+/// Far above the round-off of a sum of steps, and too little to matter to a step.
+const SLIVER: f64 = 1e-6;
+/// Factor from the length of one level to the next \[-\]: a power of two, so that lengths are exact.
+const HALF: f64 = 0.5;
+/// A step that failed is followed by one below this part of it, and not below half of that \[-\]: by its half where its
+/// length was one of the levels, which a step to a target is not.
+const CUT: f64 = 0.75;
 
 impl Control {
     fn new(model: &Model, span: Span) -> Self {
         let mut targets: Vec<f64> = model
             .breakpoints()
             .into_iter()
-            .filter(|t| *t > 0.0 && *t < span.end * (1.0 - 1e-12))
+            .filter(|t| *t > 0.0 && *t < span.end * BEFORE_END)
             .collect();
         targets.push(span.end);
         Self {
@@ -202,16 +215,21 @@ impl Control {
         }
     }
 
+    /// Length of a step of the present level \[s\].
+    fn length(&self) -> f64 {
+        self.span.dt * HALF.powi(self.level as i32)
+    }
+
     /// Length of the next step from time `t`, `None` at the end. The steps to the next target are
     /// made equal, so that round-off never leaves a sliver.
     fn next(&self, t: f64) -> Option<f64> {
-        let slack = 1e-9 * self.span.dt * 0.5_f64.powi(self.level as i32);
-        let target = *self.targets.iter().find(|&&target| target > t + slack)?;
-        let wish = self.span.dt * 0.5_f64.powi(self.level as i32);
-        let count = ((target - t) / wish - 1e-6).ceil().max(1.0);
+        let wish = self.length();
+        let is_ahead = |target: &&f64| **target > t + SAME_TIME * wish;
+        let target = *self.targets.iter().find(is_ahead)?;
+        let count = ((target - t) / wish - SLIVER).ceil().max(1.0);
         let even = (target - t) / count;
         // The same bits step after step keep the factorization.
-        Some(if (even - wish).abs() < 1e-9 * wish {
+        Some(if (even - wish).abs() < SAME_TIME * wish {
             wish
         } else {
             even
@@ -224,7 +242,7 @@ impl Control {
         let places = self.targets.iter().copied().chain([grid]);
         if let Some(exact) = places
             .into_iter()
-            .find(|t| (t - state.time).abs() < 1e-9 * self.span.dt)
+            .find(|t| (t - state.time).abs() < SAME_TIME * self.span.dt)
         {
             state.time = exact;
         }
@@ -263,10 +281,10 @@ impl Control {
         }
         self.successes = 0;
         self.grown = false;
-        while self.span.dt * 0.5_f64.powi(self.level as i32) >= 0.75 * dt {
+        while self.length() >= CUT * dt {
             self.level += 1;
         }
-        if dt * 0.5 < self.smallest {
+        if dt * HALF < self.smallest {
             return Err(NscdError::Stopped {
                 time,
                 smallest: dt,

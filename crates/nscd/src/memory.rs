@@ -11,8 +11,8 @@ const LOSSES: u8 = 2;
 /// Depth over the search distance that a contact on a rim may have although it is left out for the step \[-\].
 const RIM_DEPTH: f64 = 1e-6;
 
-/// Forces and stiffnesses of the slave nodes. Nothing here decides a result: forces are a warm start, stiffnesses only weigh an
-/// error.
+/// Forces and stiffnesses of the slave nodes. Nothing here decides a result: forces are a warm start, stiffnesses only
+/// weigh an error.
 #[derive(Debug)]
 pub(crate) struct ContactMemory {
     cone: Cone,
@@ -93,9 +93,9 @@ impl ContactMemory {
         cone * self.forces.iter().map(pressed).sum::<usize>()
     }
 
-    /// Leaves out the contacts that chatter. A node on the rim of a master can be lost by the search in one iteration and found
-    /// in the next, for ever: one that was lost twice while pressed stays lost for the step. The deepest of those that are back
-    /// is returned, for a step must not end with it.
+    /// Leaves out the contacts that chatter. A node on the rim of a master can be lost by the search in one iteration
+    /// and found in the next, for ever: one that was lost twice while pressed stays lost for the step. The deepest of
+    /// those that are back is returned, for a step must not end with it.
     pub(crate) fn leave_out_chattering(
         &mut self,
         map: ContactMap,

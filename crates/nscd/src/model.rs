@@ -42,7 +42,7 @@ pub struct Rayleigh {
 
 impl Rayleigh {
     /// No damping at all.
-    pub fn is_none(&self) -> bool {
+    pub(crate) fn is_none(&self) -> bool {
         self.mass == 0.0 && self.stiffness == 0.0
     }
 }
@@ -147,12 +147,13 @@ impl Model {
     }
 
     /// Number of unknowns before supports, `dim * nodes`.
+    #[must_use]
     pub fn dof_count(&self) -> usize {
         self.solid.dof_count()
     }
 
     /// Times at which a motion or load changes its form: no step crosses one.
-    pub fn breakpoints(&self) -> Vec<f64> {
+    pub(crate) fn breakpoints(&self) -> Vec<f64> {
         let mut times: Vec<f64> = Vec::new();
         for support in &self.supports {
             times.extend(support.motion.breakpoints());
@@ -171,6 +172,7 @@ impl Model {
     }
 
     /// Positions of the nodes at displacement `u`, flat \[m\].
+    #[must_use]
     pub fn positions(&self, u: &[f64]) -> Vec<f64> {
         let dim = self.solid.dim();
         let points = self.solid.mesh().points.iter();
@@ -181,6 +183,7 @@ impl Model {
     }
 
     /// Kinetic energy \[J\]; an equilibrium path has none.
+    #[must_use]
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         match self.scheme.inertia {
             Inertia::Dynamic => 0.5 * self.mass.quadratic(v),

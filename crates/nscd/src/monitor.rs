@@ -6,18 +6,24 @@ use crate::body::BodySystem;
 use crate::cost::COSTS;
 use crate::error::StepFailure;
 use crate::flat::largest;
-use crate::iterate::Iterate;
 use crate::law::LawError;
 use crate::memory::ContactMemory;
+use crate::newton_iterate::NewtonIterate;
 use crate::scales::ModelScales;
 use crate::step_problem::StepProblem;
 
-/// How many times the largest force in play an element may resist a strain of size one, before its matrix is thought to come from
-/// an iterate in which it was almost crushed \[-\].
+/// How many times the largest force in play an element may resist a strain of size one, before its matrix is thought to
+/// come from an iterate in which it was almost crushed \[-\].
 const RIGID: f64 = 1e3;
+
+/// Stiffness where neither a matrix nor a mass tells one \[N/m\].
+const ANY_STIFFNESS: f64 = 1.0;
 
 /// Iterations without progress after which a residual counts as round-off.
 const STAGNATION: usize = 4;
+/// Iterations of a step before which no residual counts as round-off: twice those without progress, for in the first
+/// ones contacts may still open and close.
+const EARLIEST: usize = 2 * STAGNATION;
 /// How far above the allowed residual it may lie then \[-\].
 const CLOSE: f64 = 100.0;
 /// Factor by which an iteration that helps makes something smaller \[-\].
@@ -46,7 +52,8 @@ const FRESH_ITERATIONS: f64 = 3.0;
 pub(crate) struct Check {
     pub(crate) iteration: usize,
     pub(crate) converged: bool,
-    /// Largest residual force on a free dof \[N\]; where round-off is larger than what is allowed, the force counts in that ratio.
+    /// Largest residual force on a free dof \[N\]; where round-off is larger than what is allowed, the force counts in
+    /// that ratio.
     pub(crate) residual: f64,
     dof: u32,
     node: usize,
@@ -87,7 +94,7 @@ impl Check {
     pub(crate) fn failure(
         &self,
         step: &StepProblem<'_>,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         bodies: &[BodySystem],
     ) -> StepFailure {
         let mut floating = bodies.iter().filter(|body| body.floating);
@@ -146,30 +153,16 @@ impl Monitor {
     pub(crate) fn check(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         bodies: &mut [BodySystem],
         memory: &ContactMemory,
         scales: &ModelScales,
     ) -> Result<Check, StepFailure> {
         let settings = &step.model.settings;
-        let diagonals = bodies.iter().map(BodySystem::largest_diagonal);
-        let factored = diagonals.fold(0.0, f64::max);
-        // Before the first factorization the mass alone gives the scale; without mass any scale tells
-        // a penetration from round-off.
-        let stiffness = match factored.max(step.weights.mass * scales.largest_mass) {
-            0.0 => 1.0,
-            known => known,
-        };
-        let bound = Bound {
-            force: largest_force(step, iterate),
-            tolerance: settings.newton_tolerance,
-            unknown: if factored > 0.0 { 0.0 } else { stiffness },
-            travel: largest(&iterate.u) + step.dt * largest(&iterate.v),
-            dim: step.model.solid.dim(),
-        };
+        let bound = Bound::of(step, iterate, bodies, scales);
         let (residual, dof) = self.residual(iterate, bodies, &bound, &scales.element_size)?;
         let blur = ROUND_OFF * (scales.extent + bound.travel) / settings.contact_tolerance;
-        let law = LawError::of(step.model, memory, iterate, stiffness, blur);
+        let law = LawError::of(step.model, memory, iterate, bound.stiffness, blur);
         let check = Check {
             iteration: self.iteration,
             converged: iterate.pending.is_none()
@@ -213,7 +206,7 @@ impl Monitor {
         self.recent.rotate_left(1);
         let oldest = std::mem::replace(&mut self.recent[STAGNATION - 1], residual);
         let fallen = self.recent.iter().any(|r| *r < PROGRESS * oldest);
-        self.iteration >= 2 * STAGNATION && !fallen && residual <= CLOSE * self.allowed
+        self.iteration >= EARLIEST && !fallen && residual <= CLOSE * self.allowed
     }
 
     /// Largest residual \[N\] and its dof; the contraction of every body goes to the body.
@@ -222,7 +215,7 @@ impl Monitor {
     /// happens among the smallest.
     fn residual(
         &mut self,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         bodies: &mut [BodySystem],
         bound: &Bound,
         element_size: &[f64],
@@ -260,8 +253,8 @@ impl Monitor {
         Ok(worst)
     }
 
-    /// Tells a body the contraction of its residual. Contact passes a disturbance back and forth between two bodies: two
-    /// iterations tell more than one.
+    /// Tells a body the contraction of its residual. Contact passes a disturbance back and forth between two bodies:
+    /// two iterations tell more than one.
     fn follow(&mut self, index: usize, body: &mut BodySystem, norm: f64) {
         let [before, previous] = self.norms[index];
         match self.iteration {
@@ -303,7 +296,9 @@ struct Bound {
     force: f64,
     /// Allowed residual over that force, where round-off is no matter \[-\].
     tolerance: f64,
-    /// Stiffness before the first factorization, zero after it \[N/m\].
+    /// Largest diagonal entry of the matrices, or what stands for it \[N/m\].
+    stiffness: f64,
+    /// The same before the first factorization, zero after it \[N/m\].
     unknown: f64,
     /// Size of the displacements, and of what the velocities make in the step \[m\].
     travel: f64,
@@ -311,8 +306,32 @@ struct Bound {
 }
 
 impl Bound {
-    /// Round-off of the residual of each dof of a body \[N\]. Strains carry the round-off of numbers of size one, displacements
-    /// that of their own size.
+    fn of(
+        step: &StepProblem<'_>,
+        iterate: &NewtonIterate,
+        bodies: &[BodySystem],
+        scales: &ModelScales,
+    ) -> Self {
+        let diagonals = bodies.iter().map(BodySystem::largest_diagonal);
+        let factored = diagonals.fold(0.0, f64::max);
+        // Before the first factorization the mass alone gives the scale; without mass any scale tells
+        // a penetration from round-off.
+        let stiffness = match factored.max(step.weights.mass * scales.largest_mass) {
+            0.0 => ANY_STIFFNESS,
+            known => known,
+        };
+        Self {
+            force: largest_force(step, iterate),
+            tolerance: step.model.settings.newton_tolerance,
+            stiffness,
+            unknown: if factored > 0.0 { 0.0 } else { stiffness },
+            travel: largest(&iterate.u) + step.dt * largest(&iterate.v),
+            dim: step.model.solid.dim(),
+        }
+    }
+
+    /// Round-off of the residual of each dof of a body \[N\]. Strains carry the round-off of numbers of size one,
+    /// displacements that of their own size.
     fn floors(&self, body: &BodySystem, element_size: &[f64]) -> Vec<f64> {
         let around = |((d, [whole, elastic]), softest): ((&u32, &[f64; 2]), &f64)| {
             let size = element_size[*d as usize / self.dim];
@@ -326,7 +345,7 @@ impl Bound {
     }
 }
 
-fn largest_force(step: &StepProblem<'_>, iterate: &Iterate) -> f64 {
+fn largest_force(step: &StepProblem<'_>, iterate: &NewtonIterate) -> f64 {
     let forces = [
         &iterate.internal_force,
         &step.external_force,

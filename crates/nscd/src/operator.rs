@@ -6,8 +6,8 @@ use faer::Mat;
 use crate::body::BodySystem;
 use crate::memory::ContactMemory;
 
-/// `W` of the last contact problem: it holds as long as no frame, no stencil and no factor changed, which is the rule between
-/// bodies and rigid planes.
+/// `W` of the last contact problem: it holds as long as no frame, no stencil and no factor changed, which is the rule
+/// between bodies and rigid planes.
 #[derive(Debug, Default)]
 pub(crate) struct ContactOperator {
     kept: Option<Kept>,

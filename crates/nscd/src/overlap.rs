@@ -13,7 +13,7 @@ use crate::tally::Tally;
 
 use hull::{Hull, Inside, sorted};
 
-/// Depth over the search distance that nodes of a master, which may enter the slave, should not have at the start \[-\].
+/// Depth over the search distance that nodes of a master, which may enter the slave, must not have at first \[-\].
 const DEEP: f64 = 2.0;
 
 /// Knows the bodies behind the deformable masters, and looks for slave nodes in them.
@@ -31,8 +31,8 @@ impl<'m> OverlapCheck<'m> {
         Ok(Self { model, hulls })
     }
 
-    /// Refuses to start where a slave node lies in the body of its master and no contact is found for it, or a node of a master
-    /// so deep in that of the slave that no contact could be; but not where another interface is nearer.
+    /// Refuses to start where a slave node lies in the body of its master and no contact is found for it, or a node of
+    /// a master so deep in that of the slave that no contact could be; but not where another interface is nearer.
     pub(crate) fn refuse_start(
         &self,
         search: &mut ContactSearch<'_>,
@@ -45,7 +45,7 @@ impl<'m> OverlapCheck<'m> {
         let mut u = vec![0.0; model.dof_count()];
         model.prescribe(0.0, &mut u);
         let x = model.positions(&u);
-        let mut slaves = self.unheld(&x, 0.0, search, tally).into_iter();
+        let mut slaves = self.without_contact(&x, 0.0, search, tally).into_iter();
         if let Some((k, inside)) = slaves.find(|(_, i)| i.is_stuck()) {
             return Err(self.refusal(k, inside, Side::Master));
         }
@@ -72,8 +72,9 @@ impl<'m> OverlapCheck<'m> {
         }
     }
 
-    /// Refuses the end of a step at which a slave node lies under its master although the contact that it had is no longer found:
-    /// deeper than the search reaches, or in a fold. One that came in through a side that is no master is for [`Self::find`].
+    /// Refuses the end of a step at which a slave node lies under its master although the contact that it had is no
+    /// longer found: deeper than the search reaches, or in a fold. One that came in through a side that is no master is
+    /// for [`Self::find`].
     pub(crate) fn refuse_lost(
         &self,
         now: &State,
@@ -83,12 +84,14 @@ impl<'m> OverlapCheck<'m> {
         let dim = self.model.solid.dim();
         let mut x = Vec::new();
         for hull in &self.hulls {
-            let held = self.nodes_in_contact(hull, contacts);
+            let in_contact = self.nodes_in_contact(hull, contacts);
             let had = now.contacts.iter();
             let had = had
                 .filter(|c| c.interface == hull.interface)
                 .map(|c| c.node);
-            let lost: Vec<u32> = had.filter(|n| held.binary_search(n).is_err()).collect();
+            let lost: Vec<u32> = had
+                .filter(|n| in_contact.binary_search(n).is_err())
+                .collect();
             if lost.is_empty() {
                 continue;
             }
@@ -107,8 +110,8 @@ impl<'m> OverlapCheck<'m> {
         Ok(())
     }
 
-    /// Slave nodes inside the bodies of their masters that no contact holds, wherever they came in, but for those that another
-    /// interface is nearer to.
+    /// Slave nodes inside the bodies of their masters that no contact holds, wherever they came in, but for those that
+    /// another interface is nearer to.
     pub(crate) fn find(
         &self,
         state: &State,
@@ -119,7 +122,7 @@ impl<'m> OverlapCheck<'m> {
             return None;
         }
         let x = self.model.positions(&state.u);
-        let mut all = self.unheld(&x, state.time, search, tally);
+        let mut all = self.without_contact(&x, state.time, search, tally);
         all.retain(|(_, inside)| inside.is_stuck());
         let by_depth =
             |a: &&(usize, Inside), b: &&(usize, Inside)| a.1.depth().total_cmp(&b.1.depth());
@@ -132,8 +135,8 @@ impl<'m> OverlapCheck<'m> {
         })
     }
 
-    /// Slave nodes without contact inside the bodies of their masters, with their interfaces, at the positions `x` \[m\].
-    fn unheld(
+    /// Slave nodes without contact inside the bodies of their masters, with their interfaces, at positions `x` \[m\].
+    fn without_contact(
         &self,
         x: &[f64],
         time: f64,
@@ -147,8 +150,8 @@ impl<'m> OverlapCheck<'m> {
         if near.iter().any(|nodes| !nodes.is_empty()) {
             let contacts = search.contacts_at(x, time);
             for (hull, mut near) in self.hulls.iter().zip(near) {
-                let held = self.nodes_in_contact(hull, &contacts);
-                near.retain(|n| held.binary_search(n).is_err());
+                let in_contact = self.nodes_in_contact(hull, &contacts);
+                near.retain(|n| in_contact.binary_search(n).is_err());
                 let found = hull.insides(x, dim, &near).into_iter();
                 all.extend(found.map(|inside| (hull.interface, inside)));
             }

@@ -6,6 +6,7 @@ use crate::error::StepFailure;
 
 /// Work done, for proving what was skipped.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Counters {
     /// Accepted steps.
     pub steps: u64,
@@ -43,6 +44,7 @@ pub struct Counters {
 
 /// Part of the work that a time is booked on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Phase {
     /// Element forces and tangents.
     Elements,
@@ -71,7 +73,7 @@ impl Phase {
 }
 
 /// Seconds spent in each phase, indexed like [`Phase::ALL`].
-pub type Phases = [f64; 6];
+pub type Phases = [f64; Phase::ALL.len()];
 
 /// Reads a clock; the libraries themselves know no time.
 pub trait Clock {
@@ -92,6 +94,7 @@ impl Clock for NoClock {
 /// Energy terms of one step or summed over a run \[J\]. Each is computed from its own formula, none
 /// as the remainder of the others, so that [`EnergyTerms::imbalance`] proves something.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct EnergyTerms {
     /// Change of the kinetic energy `(v1 . M v1 - v0 . M v0)/2` \[J\].
     pub kinetic: f64,
@@ -136,13 +139,13 @@ impl EnergyTerms {
     }
 
     /// Adds the terms of another step.
-    pub fn add(&mut self, other: &Self) {
+    pub(crate) fn add(&mut self, other: &Self) {
         let terms = self.terms_mut().into_iter().zip(other.named());
         terms.for_each(|(sum, (_, term))| *sum += term);
     }
 
-    /// All terms with their names, in the order of the balance: what is stored, the work that came in, what is lost, and the
-    /// errors of the integration.
+    /// All terms with their names, in the order of the balance: what is stored, the work that came in, what is lost,
+    /// and the errors of the integration.
     #[must_use]
     pub fn named(&self) -> [(&'static str, f64); 12] {
         [
@@ -182,26 +185,25 @@ impl EnergyTerms {
 
 /// Force and moment about the origin that act on the bodies.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Resultant {
     /// Force \[N\].
-    pub force: [f64; 3],
+    pub force: Vector3<f64>,
     /// Moment about the origin at the end positions \[N m\].
-    pub moment: [f64; 3],
+    pub moment: Vector3<f64>,
 }
 
 impl Resultant {
     /// Adds the force `f` \[N\] at the place `at` \[m\].
     pub(crate) fn add(&mut self, f: Vector3<f64>, at: Vector3<f64>) {
-        let m = at.cross(&f);
-        for i in 0..3 {
-            self.force[i] += f[i];
-            self.moment[i] += m[i];
-        }
+        self.force += f;
+        self.moment += at.cross(&f);
     }
 }
 
 /// Slave nodes that no contact holds, inside the bodies of their masters.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Overlap {
     /// How many there are.
     pub nodes: usize,
@@ -215,6 +217,7 @@ pub struct Overlap {
 
 /// One accepted step.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct StepReport {
     /// End of the step \[s\].
     pub time: f64,
@@ -240,6 +243,7 @@ pub struct StepReport {
 
 /// A rejected step.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Rejection {
     /// Start of the step \[s\].
     pub time: f64,

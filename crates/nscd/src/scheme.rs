@@ -27,6 +27,7 @@ pub enum Inertia {
 
 /// The theta/xi scheme [Feng2007, eq. 38-41].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Scheme {
     /// Weight of the end velocity in the displacement, in `[1/2, 1]`.
     pub theta: f64,
@@ -55,8 +56,8 @@ impl Default for Scheme {
 }
 
 impl Scheme {
-    /// Mass, velocities and contact at the position level; `theta` and `xi` are 0.5 for the trapezoidal rule, which loses no
-    /// energy in the bodies, up to 1 for backward Euler, which loses most.
+    /// Mass, velocities and contact at the position level; `theta` and `xi` are 0.5 for the trapezoidal rule, which
+    /// loses no energy in the bodies, up to 1 for backward Euler, which loses most.
     #[must_use]
     pub const fn dynamic(theta: f64, xi: f64) -> Self {
         Self {
@@ -84,11 +85,17 @@ impl Scheme {
         Self { contact, ..self }
     }
 
+    /// The same scheme with or without mass. An equilibrium path weighs the end forces alone, whatever `xi` is.
+    #[must_use]
+    pub const fn with_inertia(self, inertia: Inertia) -> Self {
+        Self { inertia, ..self }
+    }
+
     /// Refuses parameters outside the range in which the scheme is stable.
     ///
     /// # Errors
     /// [`NscdError::Setting`] with the bound, [`NscdError::VelocityWithoutInertia`].
-    pub fn validated(self) -> Result<Self, NscdError> {
+    pub(crate) fn validated(self) -> Result<Self, NscdError> {
         let allowed = "between 0.5 (trapezoidal rule) and 1 (backward Euler)";
         for (name, value) in [("theta", self.theta), ("xi", self.xi)] {
             if !(0.5..=1.0).contains(&value) {

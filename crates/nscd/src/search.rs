@@ -65,8 +65,8 @@ impl<'m> ContactSearch<'m> {
         map
     }
 
-    /// Contacts whose gap closes in free flight \[physics of Moreau-Jean\]; they keep their frames through the step. `reach` is
-    /// the largest search distance \[m\].
+    /// Contacts whose gap closes in free flight \[physics of Moreau-Jean\]; they keep their frames through the step.
+    /// `reach` is the largest search distance \[m\].
     pub(crate) fn predicted_contacts(
         &mut self,
         step: &StepProblem<'_>,
@@ -78,8 +78,8 @@ impl<'m> ContactSearch<'m> {
         let mut ahead: Vec<f64> = nodes.map(|(u, v)| u + step.dt * v).collect();
         self.model.prescribe(step.end(), &mut ahead);
         let map = self.contacts_after(step, &ahead, tally);
-        // A contact that was pressed and does not bounce stays in the problem: whether it opens is for the law to say, not for the
-        // round-off of a predicted gap or the turn of a normal.
+        // A contact that was pressed and does not bounce stays in the problem: whether it opens is for the law to say,
+        // not for the round-off of a predicted gap or the turn of a normal.
         let touching = TOUCHING * reach;
         let at_rest = AT_REST * reach / step.dt;
         let pressed = |c: &Contact| {

@@ -16,8 +16,8 @@ pub struct Settings {
     pub contact_iterations: usize,
     /// Smallest step as a fraction of the nominal one (default 1/1024); below it the run stops \[-\].
     pub smallest_step: f64,
-    /// Accepted steps before a cut step is doubled again (default 2); twice as many, up to sixteen times, after each doubling
-    /// that did not last as long.
+    /// Accepted steps before a cut step is doubled again (default 2); twice as many, up to sixteen times, after each
+    /// doubling that did not last as long.
     pub growth_after: usize,
     /// Cost of refactoring relative to an iteration is estimated from operation counts; this factor
     /// scales it (default 1). Larger values keep an old tangent longer \[-\].

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 /// State at the end of an accepted step. Flat vectors are `dim * node + component`.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct State {
     /// Time \[s\].
     pub time: f64,
@@ -38,8 +39,7 @@ pub struct State {
 
 impl State {
     /// What a slave node did at the end of the last step, if it was a candidate then.
-    #[must_use]
-    pub fn contact(&self, key: ContactKey) -> Option<&ContactState> {
+    pub(crate) fn contact(&self, key: ContactKey) -> Option<&ContactState> {
         let found = self.contacts.binary_search_by_key(&key, ContactState::key);
         found.ok().map(|i| &self.contacts[i])
     }
@@ -47,6 +47,7 @@ impl State {
 
 /// One candidate contact at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ContactState {
     /// Index of the interface.
     pub interface: usize,
@@ -72,20 +73,19 @@ pub struct ContactState {
 
 impl ContactState {
     /// What the contact is called from one step to the next.
-    #[must_use]
-    pub fn key(&self) -> ContactKey {
+    pub(crate) fn key(&self) -> ContactKey {
         ContactKey::new(self.interface, self.slave_index)
     }
 
     /// Force on the slave in global axes \[N\].
-    #[must_use]
-    pub fn global_force(&self) -> Vector3<f64> {
+    pub(crate) fn global_force(&self) -> Vector3<f64> {
         self.frame * self.force
     }
 }
 
 /// The bond of a contact at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct BondState {
     /// Intensity `beta` \[-\]: 0 broken, 1 intact.
     pub intensity: f64,
@@ -97,13 +97,14 @@ pub struct BondState {
 
 /// What a slave node remembers of its bond from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[non_exhaustive]
 pub struct NodeBond {
     /// Intensity `beta` \[-\].
     pub intensity: f64,
     /// Gap, not negative \[m\].
     pub gap: f64,
-    /// Tangential separation since bonding \[m\]: along the tangents of the contact's frame on an obstacle, of the facet's own
-    /// axes on a deformable master. Both turn with the master's material.
+    /// Tangential separation since bonding \[m\]: along the tangents of the contact's frame on an obstacle, of the
+    /// facet's own axes on a deformable master. Both turn with the master's material.
     pub separation: [f64; 2],
     /// Facet of the master to which those axes belong; `None` for an obstacle.
     pub facet: Option<u32>,

@@ -6,8 +6,8 @@ use crate::model::Model;
 use crate::scheme::{Inertia, Weights};
 use crate::state::State;
 
-/// Most that the prediction may miss of the prescribed motion, over that motion in the step, for Newton's iteration to start with
-/// the prescribed unknowns at their ends \[-\]: more would crush the elements beside them.
+/// Most that the prediction may miss of the prescribed motion, over that motion in the step, for Newton's iteration to
+/// start with the prescribed unknowns at their ends \[-\]: more would crush the elements beside them.
 const MISSED: f64 = 0.05;
 
 /// What does not change while a step iterates.
@@ -63,7 +63,8 @@ impl<'a> StepProblem<'a> {
         self.now.time + self.dt
     }
 
-    /// Where Newton starts, and the correction that the prescribed dofs still lack there \[m\], if they cannot start at their ends.
+    /// Where Newton starts, and the correction that the prescribed dofs still lack there \[m\], if they cannot start at
+    /// their ends.
     pub(crate) fn predict(
         &self,
         fixed: &[bool],
@@ -110,8 +111,8 @@ impl<'a> StepProblem<'a> {
         difference(&target, u)
     }
 
-    /// End velocities: by the scheme where free, mean of the step where prescribed. (The scheme at theta = 1/2 would make a
-    /// prescribed velocity jump ring for ever.)
+    /// End velocities: by the scheme where free, mean of the step where prescribed. (The scheme at theta = 1/2 would
+    /// make a prescribed velocity jump ring for ever.)
     pub(crate) fn end_velocity(&self, u: &[f64], fixed: &[bool], v: &mut [f64]) {
         let (now, dt) = (self.now, self.dt);
         for i in 0..u.len() {

@@ -13,11 +13,11 @@ use crate::contact::ContactSolver;
 use crate::contact_stiffness::contact_stiffness;
 use crate::elements::Elements;
 use crate::error::{NscdError, StepFailure};
-use crate::iterate::Iterate;
 use crate::local::local_variable;
 use crate::memory::{ContactMemory, refuse_chattering};
 use crate::model::Model;
 use crate::monitor::Monitor;
+use crate::newton_iterate::NewtonIterate;
 use crate::overlap::OverlapCheck;
 use crate::report::{Clock, Counters, Overlap, Phase, Phases, StepReport};
 use crate::scales::ModelScales;
@@ -29,16 +29,20 @@ use crate::tally::Tally;
 use crate::tunnelling::refuse_tunnelling;
 use crate::unsupported::refuse_unsupported;
 
-/// Distance of two times over the step below which they are the same \[-\].
-const SAME_TIME: f64 = 1e-9;
+/// Distance of two times over the step below which they are the same \[-\]: far above the round-off of a sum of steps,
+/// far below any step.
+pub(crate) const SAME_TIME: f64 = 1e-9;
 /// Part of a correction below which it is not shortened further when it turns an element inside out \[-\].
 const SHORTEST: f64 = 0.1;
-/// Corrections of a step that Anderson's acceleration combines: with a lagged tangent they shrink by a nearly constant factor
-/// in a few directions. Displacements and contact forces are combined with the same weights, so that a balance that is linear
-/// in both stays one.
+/// Part of a correction that turned an element inside out, that is tried next \[-\].
+const SHORTER: f64 = 0.5;
+/// Corrections of a step that Anderson's acceleration combines: with a lagged tangent they shrink by a nearly constant
+/// factor in a few directions. Displacements and contact forces are combined with the same weights, so that a balance
+/// that is linear in both stays one.
 const CORRECTIONS: usize = 5;
 
-/// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step leaves the state as it was.
+/// Advances a model by single steps. Holds factorizations and scratch, no truth: a rejected step leaves the state as it
+/// was.
 ///
 /// ```
 /// use nscd::fe_core::{BoxMesh, Dirichlet, Solid, solid_block};
@@ -79,8 +83,8 @@ impl<'m> Stepper<'m> {
     /// Orders and analyses every body.
     ///
     /// # Errors
-    /// Scheme parameters out of bounds, a matrix that cannot be analysed, an inverted element, a body that nothing holds, bodies
-    /// that overlap.
+    /// Scheme parameters out of bounds, a matrix that cannot be analysed, an inverted element, a body that nothing
+    /// holds, bodies that overlap.
     pub fn new(model: &'m Model, clock: Box<dyn Clock>) -> Result<Self, NscdError> {
         model.scheme.validated()?;
         let fixed = model.prescribed();
@@ -120,14 +124,15 @@ impl<'m> Stepper<'m> {
         &self.tally.phases
     }
 
-    /// The contact problem of the last iteration that had one in the last step \[m, N\], a copy; `None` where nothing touched.
-    /// With bonds it is the problem that they leave for the dry forces.
+    /// The contact problem of the last iteration that had one in the last step \[m, N\], a copy; `None` where nothing
+    /// touched. With bonds it is the problem that they leave for the dry forces.
+    #[must_use]
     pub fn last_contact_problem(&self) -> Option<ContactProblem> {
         self.contact.last_problem()
     }
 
-    /// Slave nodes inside the bodies of their masters that no contact holds, wherever they came in, but for those that another
-    /// interface is nearer to.
+    /// Slave nodes inside the bodies of their masters that no contact holds, wherever they came in, but for those that
+    /// another interface is nearer to.
     pub fn overlap(&mut self, state: &State) -> Option<Overlap> {
         self.overlap.find(state, &mut self.search, &mut self.tally)
     }
@@ -211,11 +216,11 @@ impl<'m> Stepper<'m> {
         self.anderson.forget();
     }
 
-    fn predict(&mut self, step: &StepProblem<'_>) -> Result<Iterate, StepFailure> {
+    fn predict(&mut self, step: &StepProblem<'_>) -> Result<NewtonIterate, StepFailure> {
         let is_now = |t: &f64| (t - step.now.time).abs() <= SAME_TIME * step.dt;
         let at_breakpoint = self.breakpoints.iter().any(is_now);
         let (u, pending) = step.predict(&self.fixed, at_breakpoint);
-        let mut iterate = Iterate::at(self.model, u, pending);
+        let mut iterate = NewtonIterate::at(self.model, u, pending);
         if self.model.scheme.contact == ContactLevel::Velocity {
             let reach = self.scales.reach;
             iterate.map = self.search.predicted_contacts(step, reach, &mut self.tally);
@@ -234,7 +239,7 @@ impl<'m> Stepper<'m> {
     fn start_from_rest(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &mut Iterate,
+        iterate: &mut NewtonIterate,
     ) -> Result<(), StepFailure> {
         iterate.u.copy_from_slice(&step.now.u);
         iterate.pending = Some(step.prescribed_way(&step.now.u));
@@ -245,7 +250,7 @@ impl<'m> Stepper<'m> {
     fn evaluate(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &mut Iterate,
+        iterate: &mut NewtonIterate,
     ) -> Result<(), StepFailure> {
         let start = self.tally.seconds();
         let elements = &mut self.elements;
@@ -278,7 +283,7 @@ impl<'m> Stepper<'m> {
     fn refresh_tangents(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         monitor: &Monitor,
     ) -> Result<(), StepFailure> {
         let bodies = self.bodies.iter().enumerate();
@@ -308,12 +313,12 @@ impl<'m> Stepper<'m> {
         Ok(())
     }
 
-    /// The correction of all displacements \[m\] that balances the linearised bodies under the contact law, which is solved to
-    /// the relative error `accuracy`.
+    /// The correction of all displacements \[m\] that balances the linearised bodies under the contact law, which is
+    /// solved to the relative error `accuracy`.
     fn correction(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &Iterate,
+        iterate: &NewtonIterate,
         accuracy: f64,
     ) -> Result<Vec<f64>, StepFailure> {
         let mut z = vec![0.0; iterate.u.len()];
@@ -346,7 +351,7 @@ impl<'m> Stepper<'m> {
         Ok(z)
     }
 
-    fn right_hand_side(&self, step: &StepProblem<'_>, iterate: &Iterate) -> Vec<f64> {
+    fn right_hand_side(&self, step: &StepProblem<'_>, iterate: &NewtonIterate) -> Vec<f64> {
         let mut rhs = iterate.balance.clone();
         if let Some(pending) = &iterate.pending {
             let coupling = self.elements.tangent_times(pending);
@@ -372,7 +377,7 @@ impl<'m> Stepper<'m> {
     fn apply(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &mut Iterate,
+        iterate: &mut NewtonIterate,
         mut z: Vec<f64>,
     ) -> Result<(), StepFailure> {
         if let Some(pending) = iterate.pending.take() {
@@ -387,7 +392,7 @@ impl<'m> Stepper<'m> {
                 iterate.u[i] = from[i] + scale * z[i];
             }
             match self.evaluate(step, iterate) {
-                Err(StepFailure::Element(_)) if scale > SHORTEST => scale *= 0.5,
+                Err(StepFailure::Element(_)) if scale > SHORTEST => scale *= SHORTER,
                 Err(failure) => return Err(failure),
                 Ok(()) if scale == 1.0 => return Ok(()),
                 Ok(()) => {
@@ -400,7 +405,7 @@ impl<'m> Stepper<'m> {
     }
 
     /// Lets the earlier corrections of the step improve the correction and the contact forces.
-    fn extrapolate(&mut self, iterate: &Iterate, z: &mut [f64]) {
+    fn extrapolate(&mut self, iterate: &NewtonIterate, z: &mut [f64]) {
         let mut corrected: Vec<f64> = iterate.u.iter().zip(&*z).map(|(u, z)| u + z).collect();
         corrected.extend(self.memory.flat_forces());
         self.anderson.extrapolate(&mut corrected, z);
@@ -410,13 +415,13 @@ impl<'m> Stepper<'m> {
         self.memory.set_flat_forces(forces);
     }
 
-    /// Refuses a converged iterate that something speaks against, and gives its contacts their gaps at the end of the step: at
-    /// the velocity level they keep their predicted frames. Returns the deepest penetration \[m\] of slave nodes that no contact
-    /// was predicted for.
+    /// Refuses a converged iterate that something speaks against, and gives its contacts their gaps at the end of the
+    /// step: at the velocity level they keep their predicted frames. Returns the deepest penetration \[m\] of slave
+    /// nodes that no contact was predicted for.
     fn confirm(
         &mut self,
         step: &StepProblem<'_>,
-        iterate: &mut Iterate,
+        iterate: &mut NewtonIterate,
     ) -> Result<f64, StepFailure> {
         refuse_tunnelling(step, &iterate.u)?;
         refuse_chattering(self.model, iterate.chattering.as_ref())?;

@@ -10,8 +10,9 @@ use crate::swept::Swept;
 /// Parts into which the straight way of a node past an obstacle is cut to look whether it goes through.
 const LOOKS: i32 = 8;
 
-/// Refuses a step that ends at the displacement `u` \[m\] where contacts may have been missed on the way. A slave that crosses more than the reach of the search in one step could pass through its
-/// master unseen: such a step is refused when the two come near each other on the way.
+/// Refuses a step that ends at the displacement `u` \[m\] where contacts may have been missed on the way. A slave that
+/// crosses more than the reach of the search in one step could pass through its master unseen: such a step is refused
+/// when the two come near each other on the way.
 pub(crate) fn refuse_tunnelling(step: &StepProblem<'_>, u: &[f64]) -> Result<(), StepFailure> {
     let model = step.model;
     let (start, end) = (model.positions(&step.now.u), model.positions(u));
@@ -39,8 +40,8 @@ pub(crate) fn refuse_tunnelling(step: &StepProblem<'_>, u: &[f64]) -> Result<(),
     Ok(())
 }
 
-/// A node that ends a step on the other side of a ball, a cylinder or a tip, and was inside on its straight way, has jumped
-/// through it: gaps at the end of the step do not tell.
+/// A node that ends a step on the other side of a ball, a cylinder or a tip, and was inside on its straight way, has
+/// jumped through it: gaps at the end of the step do not tell.
 fn refuse_passing(
     interface: &Interface,
     obstacle: &Obstacle,

@@ -256,12 +256,10 @@ fn facet_size(surface: &Surface, mesh: &Mesh) -> f64 {
 }
 
 fn scheme(scene: &Scene) -> Scheme {
-    Scheme {
-        theta: scene.time.theta,
-        xi: scene.time.xi,
-        contact: scene.time.contact,
-        inertia: scene.time.inertia,
-    }
+    let time = &scene.time;
+    Scheme::dynamic(time.theta, time.xi)
+        .with_inertia(time.inertia)
+        .with_contact(time.contact)
 }
 
 fn settings(scene: &Scene) -> Settings {

@@ -27,8 +27,8 @@ pub fn row(
         contact_error: report.contact_error,
         forces: resultants
             .map(|r| Force {
-                force: r.force,
-                moment: r.moment,
+                force: r.force.into(),
+                moment: r.moment.into(),
             })
             .collect(),
         bonds: contacts::bonds(&built.model, state),
@@ -39,11 +39,9 @@ pub fn row(
 /// The row of the initial state, on which no forces act yet.
 #[must_use]
 pub fn first_row(scene: &Scene, built: &Built, state: &State) -> Row {
-    let report = StepReport {
-        interfaces: vec![Resultant::default(); built.model.interfaces.len()],
-        supports: vec![Resultant::default(); built.model.supports.len()],
-        ..StepReport::default()
-    };
+    let mut report = StepReport::default();
+    report.interfaces = vec![Resultant::default(); built.model.interfaces.len()];
+    report.supports = vec![Resultant::default(); built.model.supports.len()];
     row(scene, built, state, &report, &Totals::default())
 }
 

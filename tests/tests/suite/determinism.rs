@@ -9,7 +9,7 @@ fn bits(run: &Run) -> Vec<u64> {
         .interfaces
         .iter()
         .chain(&report.supports)
-        .flat_map(|r| r.force.into_iter().chain(r.moment));
+        .flat_map(|r| r.force.iter().chain(r.moment.iter()).copied());
     let contacts = state
         .contacts
         .iter()

@@ -66,7 +66,7 @@ fn sliding(scheme: &str) {
             step.report.time
         );
         let weight = 200.0 * 10.0;
-        let [x, _, n] = step.report.interfaces[0].force;
+        let [x, _, n]: [f64; 3] = step.report.interfaces[0].force.into();
         assert!(
             x.abs() <= 0.3 * n * (1.0 + 1e-8) + 1e-8 * weight,
             "{scheme}: {x} N against {n} N"

@@ -1,16 +1,15 @@
 //! The boundary of the bodies on one side of an interface, and the nodes of the other side that may lie inside.
 
-use contact_bipotential::Master;
-use contact_bipotential::closest_point;
-use fe_core::{Facet, Surface};
+use contact_bipotential::{Master, closest_point};
+use fe_core::{Facet, FacetKind, Surface};
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::error::NscdError;
 use crate::model::{Model, point};
 
-/// A node that is asked for its place steps back into its own cell by this part of the cell or, in a slender cell, of its
-/// thickness: from a face that two bodies share, or an axis, to where inside and outside differ \[-\].
+/// A node that is asked for its place steps back into its own cell by this part of the cell or, in a slender cell, of
+/// its thickness: from a face that two bodies share, or an axis, to where inside and outside differ \[-\].
 const STEP: f64 = 2e-6;
 /// Most that it steps back, as a part of the way to the middle of the cell \[-\].
 const MOST: f64 = 1e-2;
@@ -22,6 +21,12 @@ const INSIDE: f64 = 0.5;
 const ON: f64 = 2.0;
 /// Slave nodes that a thread takes at once.
 const GRAIN: usize = 8;
+
+/// Corners of the largest facet of a [`Surface`], which cuts quadratic ones into linear pieces.
+const CORNERS: usize = FacetKind::Quad4.node_count();
+
+/// Nodes of a facet, increasing, as many as the largest has.
+type FacetKey = [u32; FacetKind::Quad9.node_count()];
 
 /// A side of an interface as a body that nodes of the other side should not lie in.
 #[derive(Debug)]
@@ -125,7 +130,7 @@ impl Hull {
         let on = ON * ON * back.norm_squared();
         let [mut side, mut other, mut bare] = [f64::INFINITY; 3];
         for (facet, kind) in self.boundary.facets.iter().zip(&self.kinds) {
-            let mut corners = [Vector3::zeros(); 4];
+            let mut corners = [Vector3::zeros(); CORNERS];
             let nodes = facet.nodes();
             for (corner, n) in corners.iter_mut().zip(nodes) {
                 *corner = point(x, dim, *n);
@@ -159,7 +164,7 @@ impl Hull {
 
 /// Facets by their nodes.
 enum FacetSet {
-    Facets(Vec<[u32; 9]>),
+    Facets(Vec<FacetKey>),
     Nodes(Vec<u32>),
 }
 
@@ -251,7 +256,7 @@ fn surfaces(model: &Model) -> impl Iterator<Item = (usize, &Surface)> {
     })
 }
 
-fn key(facet: &Facet) -> [u32; 9] {
+fn key(facet: &Facet) -> FacetKey {
     let mut nodes = facet.nodes;
     nodes.sort_unstable();
     nodes

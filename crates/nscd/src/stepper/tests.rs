@@ -28,7 +28,7 @@ fn balance(
     fixed: &[bool],
     u: &[f64],
 ) -> Vec<f64> {
-    let mut iterate = Iterate::at(step.model, u.to_vec(), None);
+    let mut iterate = NewtonIterate::at(step.model, u.to_vec(), None);
     elements
         .internal_force(u, &mut iterate.internal_force)
         .unwrap();

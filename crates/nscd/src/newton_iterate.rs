@@ -11,7 +11,7 @@ use crate::step_problem::StepProblem;
 
 /// End of a step as far as the iterations have come. Flat vectors are `dim * node + component`.
 #[derive(Debug)]
-pub(crate) struct Iterate {
+pub(crate) struct NewtonIterate {
     /// Displacement \[m\].
     pub(crate) u: Vec<f64>,
     /// Velocity \[m/s\].
@@ -22,8 +22,8 @@ pub(crate) struct Iterate {
     pub(crate) strain_energy: f64,
     /// Damping force `A v` \[N\].
     pub(crate) damping_force: Vec<f64>,
-    /// Force balance without contact \[N\]: zero together with the contact forces on free dofs, minus the support forces on
-    /// prescribed ones.
+    /// Force balance without contact \[N\]: zero together with the contact forces on free dofs, minus the support
+    /// forces on prescribed ones.
     pub(crate) balance: Vec<f64>,
     /// Candidate contacts.
     pub(crate) map: ContactMap,
@@ -41,7 +41,7 @@ pub(crate) struct Iterate {
     pub(crate) pending: Option<Vec<f64>>,
 }
 
-impl Iterate {
+impl NewtonIterate {
     /// The iterate at the displacement `u`, not evaluated yet.
     pub(crate) fn at(model: &Model, u: Vec<f64>, pending: Option<Vec<f64>>) -> Self {
         let zeros = || vec![0.0; u.len()];
