@@ -1,11 +1,12 @@
 //! Checks and studies of the workspace: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask fclib`,
-//! `cargo xtask precision`, `cargo xtask figures`, `cargo xtask stress`.
+//! `cargo xtask precision`, `cargo xtask figures`, `cargo xtask stress`, `cargo xtask speed`.
 
 mod ci;
 mod fclib;
 mod figures;
 mod precision;
 mod regress;
+mod speed;
 mod stress;
 mod tidy;
 
@@ -56,6 +57,8 @@ enum Task {
         /// laws, indentation, wheel, plate-cylinder, twist, supplement; all without a name
         names: Vec<String>,
     },
+    /// CPU time of two programs on the same scenes, run in turn: docs/verification/speed.md
+    Speed(speed::Options),
     /// What the numerics survive: runs drawn from extremes, all audited; docs/verification/stress.md
     Stress(stress::Options),
 }
@@ -68,6 +71,7 @@ fn main() -> ExitCode {
         Task::Precision { names } => precision::run(&names),
         Task::Regress { names, update } => regress::run(&names, update),
         Task::Figures { names } => figures::run(&names),
+        Task::Speed(options) => speed::run(&options),
         Task::Stress(options) => stress::run(&options),
     };
     match outcome {

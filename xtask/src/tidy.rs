@@ -26,6 +26,9 @@ const ARROWS: &[(&str, &[&str])] = &[
 /// Longest file that is still one room.
 const LONGEST_FILE: usize = 500;
 
+/// Widest line of a comment in columns, indentation included.
+const WIDEST_COMMENT: usize = 120;
+
 /// What only the crate `scenarios` may do.
 const OUTSIDE_WORLD: &[&str] = &[
     "std::fs",
@@ -111,6 +114,15 @@ fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
     let lines = text.lines().count();
     if lines > LONGEST_FILE && !shown.contains("tests") {
         faults.push(format!("{shown}: {lines} lines; is it still one room?"));
+    }
+    for (i, line) in text.lines().enumerate() {
+        let width = line.chars().count();
+        if line.trim_start().starts_with("//") && width > WIDEST_COMMENT {
+            faults.push(format!(
+                "{shown}:{}: a comment of {width} columns; {WIDEST_COMMENT} at most",
+                i + 1
+            ));
+        }
     }
     if krate == "scenarios" || !is_product(shown) {
         return;

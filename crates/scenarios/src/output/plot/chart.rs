@@ -137,7 +137,7 @@ pub fn charts_svg(charts: &[Chart], columns: usize) -> Result<String, String> {
     let columns = columns.clamp(1, charts.len().max(1));
     let rows = charts.len().div_ceil(columns).max(1);
     let size = [PANEL[0] * columns as u32, PANEL[1] * rows as u32];
-    picture(size, |root| {
+    picture(size, &[], |root| {
         let areas = root.split_evenly((rows, columns));
         for (area, chart) in areas.iter().zip(charts) {
             chart.draw(area, PANEL[0], PANEL_LEGEND)?;

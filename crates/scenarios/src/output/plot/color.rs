@@ -20,9 +20,15 @@ const MAP: [(u8, u8, u8); 10] = [
     (253, 231, 37),
 ];
 
+/// Bands of the bar: as many colours as a picture can show.
+const BANDS: i32 = 100;
+
+/// The colour of the band that a value is in.
 pub(super) fn color(scale: &Scale, value: f64) -> RGBColor {
-    let s =
-        ((value - scale.low) / (scale.high - scale.low)).clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
+    let bands = f64::from(BANDS);
+    let part = ((value - scale.low) / (scale.high - scale.low)).clamp(0.0, 1.0);
+    let band = (part * bands).floor().min(bands - 1.0);
+    let s = (band + 0.5) / bands * (MAP.len() - 1) as f64;
     let i = (s as usize).min(MAP.len() - 2);
     let w = s - i as f64;
     let mix = |a: u8, b: u8| (f64::from(a) + w * (f64::from(b) - f64::from(a))).round() as u8;
@@ -46,9 +52,8 @@ pub(super) fn draw_bar(
     };
     let style = font(12).pos(Pos::new(HPos::Right, VPos::Top));
     root.draw(&Text::new(title, (ipx(right), top - ipx(30)), style))?;
-    let bands = 100;
-    for i in 0..bands {
-        let value = |i: i32| scale.low + (scale.high - scale.low) * f64::from(i) / f64::from(bands);
+    for i in 0..BANDS {
+        let value = |i: i32| scale.low + (scale.high - scale.low) * f64::from(i) / f64::from(BANDS);
         let color = color(scale, 0.5 * (value(i) + value(i + 1)));
         let corners = [
             (left, place(value(i + 1))),

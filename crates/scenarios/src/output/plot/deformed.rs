@@ -6,6 +6,7 @@ use nalgebra::Vector3;
 use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
+use super::patches::{Paint, Patch, shaded};
 use super::scale::Scale;
 use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, picture, px};
 use crate::output::Frame;
@@ -18,6 +19,13 @@ const BAR: u32 = 130;
 const PATCHES: f64 = 1200.0;
 /// Largest number of patches along an edge of a face.
 const PARTS: f64 = 3.0;
+/// Directions from the bodies to the eye and to the lamp \[-\].
+const EYE: Vector3<f64> = Vector3::new(1.0, -1.5, 0.85);
+const LAMP: Vector3<f64> = Vector3::new(0.35, -0.55, 0.75);
+/// Light of a face that looks away from the lamp; a full one has 1.
+const AMBIENT: f64 = 0.74;
+/// Steps of light between dark and full: faces of one direction and value share a path.
+const LIGHTS: f64 = 64.0;
 
 /// Picture of the deformed surface, coloured by the cell field `von_mises` averaged to the nodes; grey when there
 /// is none. Needs the point field `displacement` to deform anything.
@@ -25,22 +33,11 @@ const PARTS: f64 = 3.0;
 /// # Errors
 /// What the drawing library reports.
 pub fn deformed_svg(title: &str, frame: &Frame<'_>) -> Result<String, String> {
-    picture([WIDTH, HEIGHT], |root| draw(root, title, frame))
-}
-
-fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
-    root.draw(&Text::new(title.to_owned(), (ipx(28), ipx(16)), font(17)))?;
-    let time = format!("t = {}", short(frame.time));
-    root.draw(&Text::new(
-        format!("{time} s"),
-        (ipx(28), ipx(42)),
-        font(13),
-    ))?;
+    let plane = frame.cells.iter().all(|cells| cells.kind.dim() == 2);
+    let view = View::new(plane);
     let stress = nodal_stress(frame);
     let faces = boundary(frame);
     let points = deformed_points(frame);
-    let plane = frame.cells.iter().all(|cells| cells.kind.dim() == 2);
-    let view = View::new(plane);
     let on_surface = faces
         .iter()
         .flatten()
@@ -58,14 +55,31 @@ fn draw(root: &Area<'_>, title: &str, frame: &Frame<'_>) -> Drawn {
         scale: &scale,
         parts,
     };
-    for face in &visible {
-        draw_face(root, face, &scenery)?;
+    let mut patches: Vec<Patch> = visible
+        .iter()
+        .flat_map(|face| patches_of(face, &scenery))
+        .collect();
+    if plane {
+        // No face hides another: those of one colour become one path.
+        patches.sort_by_key(|patch| patch.paint.key());
     }
-    if stress.is_some() {
+    let scale = stress.is_some().then_some(&scale);
+    picture([WIDTH, HEIGHT], &patches, |root| {
+        draw_legend(root, title, frame.time, scale)?;
+        draw_axes(root, &view)
+    })
+}
+
+/// Title, time, and the bar of the colours if there are any.
+fn draw_legend(root: &Area<'_>, title: &str, time: f64, scale: Option<&Scale>) -> Drawn {
+    root.draw(&Text::new(title.to_owned(), (ipx(28), ipx(16)), font(17)))?;
+    let time = format!("t = {} s", short(time));
+    root.draw(&Text::new(time, (ipx(28), ipx(42)), font(13)))?;
+    if let Some(scale) = scale {
         let title = scale.label("von Mises", "Pa");
-        draw_bar(root, &scale, title, [WIDTH - BAR, 130], 400, WIDTH - 24)?;
+        draw_bar(root, scale, title, [WIDTH - BAR, 130], 400, WIDTH - 24)?;
     }
-    draw_axes(root, &view)
+    Ok(())
 }
 
 fn short(value: f64) -> String {
@@ -78,13 +92,13 @@ fn short(value: f64) -> String {
     }
 }
 
-fn deformed_points(frame: &Frame<'_>) -> Vec<[f64; 3]> {
+fn deformed_points(frame: &Frame<'_>) -> Vec<Vector3<f64>> {
     let displacement = frame.point_vector("displacement");
     let moved = |(i, x): (usize, &Vector3<f64>)| {
         let u = displacement
             .and_then(|u| u.get(3 * i..3 * i + 3))
             .unwrap_or(&[0.0; 3]);
-        [x[0] + u[0], x[1] + u[1], x[2] + u[2]]
+        x + Vector3::from_column_slice(u)
     };
     frame.points.iter().enumerate().map(moved).collect()
 }
@@ -133,7 +147,7 @@ fn boundary(frame: &Frame<'_>) -> Vec<Vec<usize>> {
 
 /// Directions of the picture: right, up, towards the eye.
 struct View {
-    axes: [[f64; 3]; 3],
+    axes: [Vector3<f64>; 3],
     plane: bool,
 }
 
@@ -141,41 +155,20 @@ impl View {
     fn new(plane: bool) -> View {
         if plane {
             return View {
-                axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+                axes: [Vector3::x(), Vector3::y(), Vector3::z()],
                 plane,
             };
         }
-        let eye = unit([1.0, -1.5, 0.85]);
-        let right = unit(cross([0.0, 0.0, 1.0], eye));
+        let eye = EYE.normalize();
+        let right = Vector3::z().cross(&eye).normalize();
         View {
-            axes: [right, cross(eye, right), eye],
+            axes: [right, eye.cross(&right), eye],
             plane,
         }
     }
 
-    fn project(&self, x: [f64; 3]) -> [f64; 3] {
-        self.axes.map(|axis| dot(axis, x))
-    }
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn unit(a: [f64; 3]) -> [f64; 3] {
-    let length = dot(a, a).sqrt();
-    if length > 0.0 {
-        a.map(|v| v / length)
-    } else {
-        a
+    fn project(&self, x: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::from(self.axes.map(|axis| axis.dot(x)))
     }
 }
 
@@ -188,11 +181,11 @@ struct Fit {
 }
 
 impl Fit {
-    fn new(view: &View, points: &[[f64; 3]], faces: &[Vec<usize>]) -> Fit {
+    fn new(view: &View, points: &[Vector3<f64>], faces: &[Vec<usize>]) -> Fit {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for node in faces.iter().flatten() {
-            let p = view.project(points[*node]);
+            let p = view.project(&points[*node]);
             for k in 0..2 {
                 low[k] = low[k].min(p[k]);
                 high[k] = high[k].max(p[k]);
@@ -221,7 +214,7 @@ impl Fit {
         }
     }
 
-    fn pixel(&self, p: [f64; 3]) -> (i32, i32) {
+    fn pixel(&self, p: Vector3<f64>) -> (i32, i32) {
         let x = f64::from(px(WIDTH - BAR)) / 2.0 + self.scale * (p[0] - self.center[0]);
         let y = f64::from(px(self.middle)) - self.scale * (p[1] - self.center[1]);
         (x.round() as i32, y.round() as i32)
@@ -238,25 +231,26 @@ struct Visible<'a> {
 /// From back to front.
 fn visible_faces<'a>(
     view: &View,
-    points: &[[f64; 3]],
+    points: &[Vector3<f64>],
     faces: &'a [Vec<usize>],
 ) -> Vec<Visible<'a>> {
-    let lamp = unit([0.35, -0.55, 0.75]);
+    let lamp = LAMP.normalize();
     let mut visible = Vec::new();
     for nodes in faces {
-        let corners: Vec<[f64; 3]> = nodes.iter().map(|node| points[*node]).collect();
+        let corners: Vec<Vector3<f64>> = nodes.iter().map(|node| points[*node]).collect();
         let last = corners.len() - 1;
-        let diagonal = |a: usize, b: usize| [0, 1, 2].map(|k| corners[b][k] - corners[a][k]);
-        let normal = unit(cross(diagonal(0, 2), diagonal(1, last)));
-        if !view.plane && dot(normal, view.axes[2]) <= 0.0 {
+        let across = (corners[2] - corners[0]).cross(&(corners[last] - corners[1]));
+        let normal = across.try_normalize(0.0).unwrap_or_default();
+        if !view.plane && normal.dot(&view.axes[2]) <= 0.0 {
             continue;
         }
         let depth =
-            corners.iter().map(|c| dot(*c, view.axes[2])).sum::<f64>() / corners.len() as f64;
+            corners.iter().map(|c| c.dot(&view.axes[2])).sum::<f64>() / corners.len() as f64;
         let light = if view.plane {
             1.0
         } else {
-            0.74 + 0.26 * dot(normal, lamp).max(0.0)
+            let light = AMBIENT + (1.0 - AMBIENT) * normal.dot(&lamp).max(0.0);
+            (light * LIGHTS).round() / LIGHTS
         };
         visible.push(Visible {
             nodes,
@@ -270,7 +264,7 @@ fn visible_faces<'a>(
 
 /// What every face of a picture needs.
 struct Scenery<'a> {
-    points: &'a [[f64; 3]],
+    points: &'a [Vector3<f64>],
     view: &'a View,
     fit: &'a Fit,
     stress: Option<&'a [f64]>,
@@ -279,7 +273,8 @@ struct Scenery<'a> {
     parts: usize,
 }
 
-fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Drawn {
+/// The parts of a face; the last one carries the rim of all.
+fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
     let Scenery {
         points,
         view,
@@ -292,17 +287,17 @@ fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Draw
     let corner = |i: usize| face.nodes[i.min(face.nodes.len() - 1)];
     let at = |s: f64, t: f64| {
         let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
-        let mut place = [0.0; 3];
+        let mut place = Vector3::zeros();
         let mut value = 0.0;
         for (i, w) in weights.into_iter().enumerate() {
             let node = corner(i);
-            let p = view.project(points[node]);
-            (0..3).for_each(|k| place[k] += w * p[k]);
+            place += w * view.project(&points[node]);
             value += w * stress.map_or(0.0, |stress| stress[node]);
         }
         (fit.pixel(place), value)
     };
     let step = 1.0 / parts as f64;
+    let mut patches = Vec::with_capacity(parts * parts);
     for i in 0..parts {
         for j in 0..parts {
             let (s, t) = (i as f64 * step, j as f64 * step);
@@ -319,39 +314,35 @@ fn draw_face(root: &Area<'_>, face: &Visible<'_>, scenery: &Scenery<'_>) -> Draw
                 RGBColor(170, 180, 195)
             };
             let color = shaded(base, face.light);
-            let mut outline: Vec<(i32, i32)> = patch.iter().map(|(pixel, _)| *pixel).collect();
-            root.draw(&Polygon::new(outline.clone(), color.filled()))?;
-            // The same colour along the rim closes the hairlines between neighbouring patches.
-            outline.push(outline[0]);
-            root.draw(&PathElement::new(outline, color.stroke_width(FINE)))?;
+            patches.push(Patch {
+                outline: patch.iter().map(|(pixel, _)| *pixel).collect(),
+                paint: if parts == 1 {
+                    Paint::Face(color)
+                } else {
+                    Paint::Fill(color)
+                },
+            });
         }
     }
-    let mut rim: Vec<(i32, i32)> = face
-        .nodes
-        .iter()
-        .map(|node| fit.pixel(view.project(points[*node])))
-        .collect();
-    rim.push(rim[0]);
-    root.draw(&PathElement::new(
-        rim,
-        BLACK.mix(0.45).stroke_width(FINE / 2),
-    ))?;
-    Ok(())
-}
-
-fn shaded(color: RGBColor, light: f64) -> RGBColor {
-    let shade = |c: u8| (f64::from(c) * light).round().clamp(0.0, 255.0) as u8;
-    RGBColor(shade(color.0), shade(color.1), shade(color.2))
+    if parts > 1 {
+        let rim = face
+            .nodes
+            .iter()
+            .map(|node| fit.pixel(view.project(&points[*node])));
+        patches.push(Patch {
+            outline: rim.collect(),
+            paint: Paint::Rim,
+        });
+    }
+    patches
 }
 
 /// Directions of x, y, z in the lower left corner.
 fn draw_axes(root: &Area<'_>, view: &View) -> Drawn {
     let origin = (ipx(60), ipx(HEIGHT - 52));
     for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let mut direction = [0.0; 3];
-        direction[k] = 1.0;
-        let p = view.project(direction);
-        let length = (p[0] * p[0] + p[1] * p[1]).sqrt();
+        let p = view.project(&Vector3::ith(k, 1.0));
+        let length = p[0].hypot(p[1]);
         if length < 1e-6 {
             continue;
         }

@@ -3,6 +3,7 @@
 use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
+use super::patches::{Paint, Patch};
 use super::scale::Scale;
 use super::style::{Area, Drawn, centred, font, ipx, picture};
 
@@ -13,8 +14,6 @@ const ROW: u32 = 1080;
 const NAMES: u32 = 92;
 const HEADING: u32 = 64;
 const BAR: u32 = 130;
-/// Drawn pixels by which patches overlap, so that no hairlines show between them.
-const OVERLAP: f64 = 3.0;
 
 /// One surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,33 +52,51 @@ pub fn maps_svg(maps: &Maps) -> Result<String, String> {
     // The bar needs its ticks apart.
     let height = HEADING + (side * rows).max(150) + 16;
     let size = [NAMES + side * columns + BAR, height];
-    picture(size, |root| draw(root, maps, side, size))
-}
-
-fn draw(root: &Area<'_>, maps: &Maps, side: u32, size: [u32; 2]) -> Drawn {
-    root.draw(&Text::new(maps.title.clone(), (ipx(16), ipx(12)), font(16)))?;
     let frames = || maps.rows.iter().flat_map(|row| &row.1);
     let values = frames().flat_map(|frame| frame.values.iter().copied());
     let scale = Scale::around(values.chain([0.0]), 6, true);
     let fit = Fit::around(side, frames().flat_map(|frame| &frame.points));
+    let mut all = Vec::new();
+    for (i, (_, row)) in maps.rows.iter().enumerate() {
+        for (k, frame) in row.iter().enumerate() {
+            let fit = fit.at(center(side, i, k));
+            all.extend(
+                maps.facets
+                    .iter()
+                    .filter_map(|facet| patch(facet, frame, &scale, &fit)),
+            );
+        }
+    }
+    // Facets of a surface do not hide each other: those of one colour become one path.
+    all.sort_by_key(|patch| patch.paint.key());
+    picture(size, &all, |root| draw(root, maps, side, size, &scale))
+}
+
+/// Middle of the frame in row `i` and column `k`, in drawn pixels.
+fn center(side: u32, i: usize, k: usize) -> [i32; 2] {
+    [
+        NAMES + side * k as u32 + side / 2,
+        HEADING + side * i as u32 + side / 2,
+    ]
+    .map(ipx)
+}
+
+/// All that is not a frame.
+fn draw(root: &Area<'_>, maps: &Maps, side: u32, size: [u32; 2], scale: &Scale) -> Drawn {
+    root.draw(&Text::new(maps.title.clone(), (ipx(16), ipx(12)), font(16)))?;
     for (k, name) in maps.columns.iter().enumerate() {
         let at = (ipx(NAMES + side * k as u32 + side / 2), ipx(HEADING - 14));
         root.draw(&Text::new(name.clone(), at, centred(12)))?;
     }
-    for (i, (name, row)) in maps.rows.iter().enumerate() {
-        let middle = HEADING + side * i as u32 + side / 2;
-        let at = (ipx(NAMES / 2), ipx(middle));
+    for (i, (name, _)) in maps.rows.iter().enumerate() {
+        let at = (ipx(NAMES / 2), center(side, i, 0)[1]);
         root.draw(&Text::new(name.clone(), at, centred(12)))?;
-        for (k, frame) in row.iter().enumerate() {
-            let center = [ipx(NAMES + side * k as u32 + side / 2), ipx(middle)];
-            draw_frame(root, maps, frame, &scale, &fit.at(center))?;
-        }
     }
     let title = scale.label(&maps.quantity, &maps.unit);
     let corner = [size[0] - BAR + 20, HEADING + 22];
     draw_bar(
         root,
-        &scale,
+        scale,
         title,
         corner,
         size[1] - HEADING - 56,
@@ -87,29 +104,25 @@ fn draw(root: &Area<'_>, maps: &Maps, side: u32, size: [u32; 2]) -> Drawn {
     )
 }
 
-fn draw_frame(root: &Area<'_>, maps: &Maps, frame: &MapFrame, scale: &Scale, fit: &Fit) -> Drawn {
-    for facet in &maps.facets {
-        let corners = facet.iter().filter_map(|&node| {
-            let (point, value) = (frame.points.get(node)?, frame.values.get(node)?);
-            Some((fit.pixel(point), *value))
-        });
-        let corners: Vec<([f64; 2], f64)> = corners.collect();
-        let count = corners.len() as f64;
-        let mean = corners.iter().map(|(_, value)| value).sum::<f64>() / count;
-        let middle = [0, 1].map(|k| corners.iter().map(|(p, _)| p[k]).sum::<f64>() / count);
-        if !mean.is_finite() {
-            continue;
-        }
-        let outline = corners.iter().map(|(p, _)| {
-            let out = [p[0] - middle[0], p[1] - middle[1]];
-            let stretch = 1.0 + OVERLAP / out[0].hypot(out[1]).max(OVERLAP);
-            let place = [0, 1].map(|k| middle[k] + stretch * out[k]);
-            (place[0].round() as i32, place[1].round() as i32)
-        });
-        let outline: Vec<(i32, i32)> = outline.collect();
-        root.draw(&Polygon::new(outline, color(scale, mean).filled()))?;
+/// A facet in the colour of its mean; none without a number.
+fn patch(facet: &[usize], frame: &MapFrame, scale: &Scale, fit: &Fit) -> Option<Patch> {
+    let corners = facet.iter().filter_map(|&node| {
+        let (point, value) = (frame.points.get(node)?, frame.values.get(node)?);
+        Some((fit.pixel(point), *value))
+    });
+    let corners: Vec<([f64; 2], f64)> = corners.collect();
+    let count = corners.len() as f64;
+    let mean = corners.iter().map(|(_, value)| value).sum::<f64>() / count;
+    if !mean.is_finite() {
+        return None;
     }
-    Ok(())
+    let outline = corners
+        .iter()
+        .map(|(p, _)| (p[0].round() as i32, p[1].round() as i32));
+    Some(Patch {
+        outline: outline.collect(),
+        paint: Paint::Fill(color(scale, mean)),
+    })
 }
 
 /// From places to pixels.
@@ -188,7 +201,7 @@ mod tests {
             rows: vec![("row".into(), vec![frame(5.0), frame(f64::NAN)])],
         };
         let svg = maps_svg(&maps).unwrap();
-        assert_eq!(svg.matches("<polygon").count(), 3);
+        assert_eq!(svg.matches('M').count(), 3 + "<svg".matches('M').count());
         assert!(svg.contains("Force [N]"));
     }
 }
