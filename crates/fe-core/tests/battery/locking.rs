@@ -329,8 +329,8 @@ fn pointwise_dilatation_locks_and_the_projected_one_does_not() {
 
 #[test]
 fn displacement_and_pressure_converge_on_regular_meshes() {
-    // Order of the displacement, and what that of the pressure is at least. Quad4 and Tri6 have one pressure a cell; it is
-    // better than order 1 because the middle of a cell is a good place.
+    // Order of the displacement, and what that of the pressure is at least. Quad4 and Tri6 have one pressure a cell; it
+    // is better than order 1 because the middle of a cell is a good place.
     for (kind, cells, order, least) in [
         (CellKind::Quad4, [8, 16], 2.0, 1.6),
         (CellKind::Quad9, [4, 8], 3.0, 1.9),

@@ -94,7 +94,8 @@ proptest! {
             + (a3 * dx * dx * dz * dz + a4 * dz.powi(4) + a5 * dx.powi(4)) * e.powi(3);
         let f = stretched([l, 1.0, 1.0]);
         let response = law.response(&right_cauchy_green(&f)).unwrap();
-        // The sides come from z alone and the deviator: compare the axial force, and the sides from tr S = sqrt 3 dW/dz.
+        // The sides come from z alone and the deviator: compare the axial force, and the sides from
+        // tr S = sqrt 3 dW/dz.
         let z = e * dz;
         let trace = 3.0_f64.sqrt() * (z * (3.0 * moduli.bulk_modulus() + a2 * z + a4 * z * z) + 0.5 * a3 * z * (dx * e).powi(2));
         let side = 0.5 * (trace - s);

@@ -7,8 +7,8 @@ use super::patches::{Paint, Patch};
 use super::scale::Scale;
 use super::style::{Area, Drawn, centred, font, ipx, picture};
 
-/// Least and largest side of a frame, width of all frames where that allows; column of the names of the rows, heading with
-/// the names of the columns, column of the bar; shown pixels.
+/// Least and largest side of a frame, width of all frames where that allows; column of the names of the rows, heading
+/// with the names of the columns, column of the bar; shown pixels.
 const SIDE: [u32; 2] = [132, 300];
 const ROW: u32 = 1080;
 const NAMES: u32 = 92;
