@@ -146,7 +146,8 @@ impl Ran {
         }
         let reason = self.summary.reason.unwrap_or_default();
         let (name, time) = (&self.plan.name, self.summary.time);
-        Err(format!("{name}: stopped at t = {time:e} s: {reason}"))
+        let status = self.summary.status.word();
+        Err(format!("{name}: {status} at t = {time:e} s: {reason}"))
     }
 }
 
@@ -223,7 +224,14 @@ fn one(plan: Plan) -> Result<Ran, String> {
         let (mut totals, span) = (Totals::default(), built.span);
         let end = march(&mut stepper, &mut state, span, &mut totals, &mut keeper);
         let stopped = end.err().map(|e| e.to_string());
-        let summary = summarise(&stepper, &state, &totals, &stopwatch, stopped);
+        let summary = summarise(
+            &loaded.scene,
+            &stepper,
+            &state,
+            &totals,
+            &stopwatch,
+            stopped,
+        );
         ((keeper.history, keeper.snapshots), state, summary)
     };
     let (history, snapshots) = keeper;

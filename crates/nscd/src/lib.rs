@@ -11,6 +11,7 @@
 //! A module uses those of the lines below it only:
 //! ```text
 //! march                                        from start to end, step control
+//! audit                                        what the energies of a run went through
 //! stepper                                      one step
 //! accept          contact                      new state and report; contact problem of an iteration
 //! monitor         operator        overlap      has it arrived; W; nodes inside the other body
@@ -32,6 +33,7 @@
 struct Readme;
 
 mod accept;
+mod audit;
 mod blocked;
 mod body;
 mod bonds;
@@ -71,6 +73,7 @@ pub use contact_bipotential;
 pub use fe_core;
 pub use nalgebra;
 
+pub use audit::EnergyAudit;
 pub use error::{ContactPlace, NscdError, Side, StepFailure};
 pub use march::{Observer, Span, Totals, march};
 pub use model::{Load, Model, Rayleigh};

@@ -1,5 +1,6 @@
 //! From start to end: step control, observers, totals.
 
+use crate::audit::EnergyAudit;
 use crate::error::{NscdError, StepFailure};
 use crate::model::Model;
 use crate::report::{EnergyTerms, Overlap, Rejection, StepReport};
@@ -47,6 +48,8 @@ pub struct Totals {
     pub largest_energy: f64,
     /// Energy terms summed over the steps.
     pub energy: EnergyTerms,
+    /// Extremes of the energies.
+    pub audit: EnergyAudit,
     /// Deepest penetration at the end of a step, and of slave nodes without contact at the end of the run \[m\].
     pub max_penetration: f64,
     /// Largest relative error of the contact law in an accepted step \[-\].
@@ -62,6 +65,7 @@ pub struct Totals {
 impl Totals {
     fn add(&mut self, report: &StepReport, state: &State) {
         self.energy.add(&report.energy);
+        self.audit.follow(state, &self.energy);
         let energy = state.kinetic_energy + state.strain_energy.abs() + state.adhesive_energy.abs();
         self.largest_energy = self.largest_energy.max(energy);
         self.max_penetration = self.max_penetration.max(report.penetration);
@@ -113,6 +117,7 @@ pub fn march(
     observer: &mut dyn Observer,
 ) -> Result<(), NscdError> {
     totals.initial_energy = state.kinetic_energy + state.strain_energy + state.adhesive_energy;
+    totals.audit = EnergyAudit::new(stepper.model(), totals.initial_energy);
     let end = advance(stepper, state, span, totals, observer);
     totals.overlap = stepper.overlap(state);
     let depth = totals.overlap.map_or(0.0, |overlap| overlap.depth);

@@ -18,6 +18,7 @@ mod progress;
 mod row;
 mod run;
 mod sweep;
+mod verdict;
 
 pub use build::{Built, build};
 pub use clock::Stopwatch;

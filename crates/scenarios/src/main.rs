@@ -274,7 +274,7 @@ fn run(
     }
     match summary.status {
         Status::Completed => Ok(ExitCode::SUCCESS),
-        Status::Stopped => {
+        Status::Unreliable | Status::Stopped => {
             eprintln!(
                 "error: {}",
                 summary.reason.as_deref().unwrap_or("no reason given")

@@ -87,7 +87,12 @@ pub fn closing_table(summary: &Summary) -> String {
             summary.steps,
             short(summary.time)
         ),
-        // The reason is told as an error.
+        // The reasons are told as an error.
+        Status::Unreliable => format!(
+            "unreliable: {} steps to t = {}\n",
+            summary.steps,
+            short(summary.time)
+        ),
         Status::Stopped => format!(
             "stopped at t = {} after {} steps\n",
             short(summary.time),

@@ -3,9 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use nscd::{
-    Clock, Inertia, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march,
-};
+use nscd::{Clock, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
 use thiserror::Error;
 
 use crate::build::{Built, build};
@@ -14,7 +12,8 @@ use crate::fields::Fields;
 use crate::output::{EnergySummary, OutputError, Results, Status, Summary};
 use crate::progress::Progress;
 use crate::row::{energies, first_row, row};
-use crate::spec::{LoadedScene, SceneError};
+use crate::spec::{LoadedScene, Scene, SceneError};
+use crate::verdict::{energy_warning, verdict};
 
 /// Why a run could not be made at all. A run that stops before its end is not an error but a [`Summary`] that says
 /// so.
@@ -106,7 +105,14 @@ pub fn run_with(
         true => format!("interrupted at t = {:e} s", state.time),
         false => error.to_string(),
     });
-    let mut summary = summarise(&stepper, &state, &totals, &stopwatch, stopped);
+    let mut summary = summarise(
+        &loaded.scene,
+        &stepper,
+        &state,
+        &totals,
+        &stopwatch,
+        stopped,
+    );
     summary.warnings.extend(loaded.scene.warnings());
     if let Some(step) = recorder.dump {
         let reason = format!(
@@ -217,32 +223,10 @@ fn rejection(r: &nscd::Rejection) -> String {
     format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
 }
 
-/// Share of the energy beyond which the integration error deserves a word.
-const NOTABLE_ERROR: f64 = 0.1;
-
-fn warnings(
-    energy: &EnergySummary,
-    totals: &Totals,
-    model: &Model,
-    lost_bonds: u64,
-) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let share = energy.integration_share(totals.largest_energy);
-    // Not a number is no small share.
-    if energy.unexplained().is_nan() {
-        warnings.push("an energy is not a number: do not believe this run".to_owned());
-    }
-    if share > NOTABLE_ERROR {
-        let part = 100.0 * share;
-        warnings.push(match model.scheme.inertia {
-            Inertia::Dynamic => format!(
-                "the time integration made up {part:.0} % of the energy: take smaller steps before you believe the numbers"
-            ),
-            Inertia::QuasiStatic => format!(
-                "the works over the steps are off by {part:.0} % of the energy, each being the force at the end of its step times the way: of first order in the step, while forces and displacements without friction and bonds do not depend on it"
-            ),
-        });
-    }
+fn warnings(totals: &Totals, model: &Model, lost_bonds: u64) -> Vec<String> {
+    let error = totals.energy.integration_error();
+    let energies = energy_warning(model.scheme.inertia, &totals.audit, error);
+    let mut warnings: Vec<String> = energies.into_iter().collect();
     if lost_bonds > 0 {
         warnings.push(format!(
             "{lost_bonds} bonds that still held were lost with their pair: nodes slid off their master or moved too far in one \
@@ -265,6 +249,7 @@ const MOST_REJECTIONS: usize = 100;
 /// What a run did and cost; `stopped` says why it did not reach its end.
 #[must_use]
 pub fn summarise(
+    scene: &Scene,
     stepper: &Stepper<'_>,
     state: &State,
     totals: &Totals,
@@ -274,13 +259,20 @@ pub fn summarise(
     let (counters, solid) = (stepper.counters(), &stepper.model().solid);
     let energy = EnergySummary::new(totals.initial_energy, &energies(state, totals));
     let phases = Phase::ALL.iter().zip(stepper.phases());
+    let mut warnings = warnings(totals, stepper.model(), counters.lost_bonds);
+    let verdict = verdict(scene, &totals.audit);
+    warnings.extend(verdict.accepted);
+    let (status, reason) = match (stopped, verdict.objections.is_empty()) {
+        (Some(reason), _) => {
+            warnings.extend(verdict.objections);
+            (Status::Stopped, Some(reason))
+        }
+        (None, true) => (Status::Completed, None),
+        (None, false) => (Status::Unreliable, Some(verdict.objections.join("; "))),
+    };
     Summary {
-        status: if stopped.is_none() {
-            Status::Completed
-        } else {
-            Status::Stopped
-        },
-        reason: stopped,
+        status,
+        reason,
         time: state.time,
         steps: counters.steps as usize,
         rejected_steps: counters.rejected_steps as usize,
@@ -303,7 +295,7 @@ pub fn summarise(
             .take(MOST_REJECTIONS)
             .map(rejection)
             .collect(),
-        warnings: warnings(&energy, totals, stepper.model(), counters.lost_bonds),
+        warnings,
         energy,
         max_penetration: totals.max_penetration,
         max_contact_error: totals.max_contact_error,

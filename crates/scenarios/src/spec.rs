@@ -95,6 +95,9 @@ pub struct Scene {
     /// Mass matrix.
     #[serde(default)]
     pub mass: MassKind,
+    /// What may be wrong with the energies of a run that still counts as completed.
+    #[serde(default)]
+    pub accept: Vec<Acceptance>,
     /// What is written besides `summary.json` and `history.csv`.
     #[serde(default)]
     pub output: Output,
@@ -102,6 +105,18 @@ pub struct Scene {
 
 fn one() -> usize {
     1
+}
+
+/// What makes a run that reached its end `unreliable`, unless the scene accepts it by name. Bounds are parts of the
+/// energy in play: the most that was stored, came in as work or was dissipated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Acceptance {
+    /// The energy audit leaves more than 1e-3 unexplained.
+    OpenAudit,
+    /// The integration of a motion made more than a tenth out of nothing.
+    EnergyGain,
+    /// The dissipation of friction, bonds, damping or closing contacts fell by more than 1e-4.
+    NegativeDissipation,
 }
 
 /// Poisson's ratio beyond which elements with a pointwise dilatation deserve a word \[-\]: there their error is up to
@@ -131,6 +146,7 @@ impl Scene {
             time,
             solver: Solver::default(),
             mass: MassKind::default(),
+            accept: Vec::new(),
             output: Output::default(),
         }
     }

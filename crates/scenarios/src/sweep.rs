@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::output::{Folder, History, OutputError, Status, Summary};
+use crate::output::{Folder, History, OutputError, Summary};
 use crate::run::{Options, run_with};
 use crate::spec::LoadedScene;
 
@@ -57,12 +57,11 @@ impl Outcome {
         }
     }
 
-    /// `completed`, `stopped` or `failed`.
+    /// `completed`, `unreliable`, `stopped` or `failed`.
     #[must_use]
     pub fn status(&self) -> &'static str {
         match &self.summary {
-            Ok(summary) if summary.status == Status::Completed => "completed",
-            Ok(_) => "stopped",
+            Ok(summary) => summary.status.word(),
             Err(_) => "failed",
         }
     }

@@ -10,11 +10,25 @@ use crate::energies::Energies;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
-    /// The end was reached and every accepted step converged.
+    /// The end was reached, every accepted step converged, and the energies speak for the run.
     Completed,
+    /// The end was reached, but the energies speak against the run; [`Summary::reason`] says how.
+    Unreliable,
     /// Stopped before the end; [`Summary::reason`] says why. What was computed stays.
     #[default]
     Stopped,
+}
+
+impl Status {
+    /// In words, as in the files.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Status::Completed => "completed",
+            Status::Unreliable => "unreliable",
+            Status::Stopped => "stopped",
+        }
+    }
 }
 
 /// What a run did and cost.
@@ -23,7 +37,7 @@ pub enum Status {
 pub struct Summary {
     /// How it ended.
     pub status: Status,
-    /// Why it stopped: step, time, contact, element, residual; null when completed.
+    /// Why it stopped (step, time, contact, element, residual) or is not to be believed; null when completed.
     pub reason: Option<String>,
     /// Time reached \[s\].
     pub time: f64,
@@ -92,20 +106,6 @@ impl EnergySummary {
             initial,
             end: end.stored(),
             terms: *end,
-        }
-    }
-
-    /// Share of the energy in play that the time integration lost or gained \[-\]; `largest` is the most that was
-    /// stored during the run \[J\].
-    pub(crate) fn integration_share(&self, largest: f64) -> f64 {
-        let scale = largest
-            .max(self.initial.abs())
-            .max(self.end.abs())
-            .max(self.terms.load_work.abs());
-        if scale > 0.0 {
-            self.terms.integration_error.abs() / scale
-        } else {
-            0.0
         }
     }
 

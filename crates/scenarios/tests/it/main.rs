@@ -14,6 +14,7 @@ mod quadratic;
 mod refusals;
 mod scene;
 mod sweep;
+mod verdict;
 mod vtu_reader;
 
 use std::path::PathBuf;

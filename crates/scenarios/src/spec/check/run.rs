@@ -3,6 +3,9 @@
 use super::{Checker, MAX_STEPS, unknown};
 use crate::spec::{ContactLevel, FieldsEvery, Inertia, Layout, Plot, Probe};
 
+/// Most damping of a mass over a step, or of a stiffness in steps \[-\]: forces of 1e-12 of another one keep four digits.
+const MOST_DAMPING: f64 = 1e12;
+
 impl Checker<'_> {
     pub(super) fn time(&mut self) {
         let time = &self.scene.time;
@@ -39,8 +42,33 @@ impl Checker<'_> {
                 ),
             );
         }
-        self.not_negative(self.scene.damping.mass, "damping.mass", "1/s");
-        self.not_negative(self.scene.damping.stiffness, "damping.stiffness", "s");
+        self.damping();
+    }
+
+    /// Forces of damping so large that all others drown in their round-off are a slip.
+    fn damping(&mut self) {
+        let (damping, dt) = (&self.scene.damping, self.scene.time.dt);
+        for (value, most, name, unit, bound) in [
+            (damping.mass, MOST_DAMPING / dt, "mass", "1/s", "/ time.dt"),
+            (
+                damping.stiffness,
+                MOST_DAMPING * dt,
+                "stiffness",
+                "s",
+                "time.dt",
+            ),
+        ] {
+            let path = format!("damping.{name}");
+            self.not_negative(value, &path, unit);
+            self.require(
+                !(value.is_finite() && dt > 0.0 && value > most),
+                &path,
+                format!(
+                    "must be at most {MOST_DAMPING:e} {bound} = {most:e} [{unit}]: beyond that all other forces drown in the round-off \
+                     of damping"
+                ),
+            );
+        }
     }
 
     pub(super) fn solver(&mut self) {

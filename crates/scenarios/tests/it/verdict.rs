@@ -1,0 +1,88 @@
+//! Runs that reach their end and are not believed.
+
+use scenarios::output::{Status, Summary};
+use scenarios::spec::parse;
+
+use crate::fresh_folder;
+
+/// A bar that nothing holds, spinning about its middle.
+const SPINNING: &str = r#"(
+    title: "spinning bar",
+    materials: {"m": (law: SaintVenantKirchhoff(E: 1.0e5, nu: 0.0), density: 1000.0)},
+    bodies: {"bar": (mesh: Rectangle(min: (-1.0, -0.1), max: (1.0, 0.1), cells: (8, 1)), material: "m", spin: (0.0, 0.0, 2.0))},
+    time: (end: 3.0, dt: 0.01),
+    output: (fields_every: Never),
+)"#;
+
+/// A block that its prescribed base carries along: no force, no energy.
+const CARRIED: &str = r#"(
+    title: "carried block",
+    materials: {"m": (law: NeoHookean(E: 1.0e6, nu: 0.3), density: 1000.0)},
+    bodies: {"block": (mesh: Rectangle(min: (0.0, 0.0), max: (1.0, 1.0), cells: (3, 3)), material: "m")},
+    motions: {"base": (nodes: "block.y_min", components: "xy",
+        motion: Move(translation: ([(0.0, 0.0), (1.0, 0.7)], [(0.0, 0.0), (1.0, 0.1)], 0.0)))},
+    time: (end: 1.0, dt: 0.1, inertia: QuasiStatic),
+    output: (fields_every: Never),
+)"#;
+
+fn run(name: &str, text: &str, sets: &[&str]) -> Summary {
+    let sets: Vec<_> = sets.iter().map(|set| set.parse().unwrap()).collect();
+    let loaded = parse(name, text, &sets).unwrap();
+    scenarios::run(&loaded, &fresh_folder(name), &mut |_| {}).unwrap()
+}
+
+#[test]
+fn a_run_whose_steps_make_energy_is_unreliable_unless_the_scene_takes_it() {
+    let good = run("spin", SPINNING, &[]);
+    assert_eq!((good.status, good.reason), (Status::Completed, None));
+    assert!(good.warnings.is_empty(), "{:?}", good.warnings);
+    let long = ["time.dt=0.15", "time.end=12"];
+    let bad = run("spin-long", SPINNING, &long);
+    assert_eq!(bad.status, Status::Unreliable);
+    let reason = bad.reason.unwrap();
+    for words in ["made", "smaller time.dt", "accept: [EnergyGain]"] {
+        assert!(reason.contains(words), "{words} in {reason}");
+    }
+    let taken = SPINNING.replace("time: (", "accept: [EnergyGain], time: (");
+    let taken = run("spin-taken", &taken, &long);
+    assert_eq!((taken.status, taken.reason), (Status::Completed, None));
+    let told = taken
+        .warnings
+        .iter()
+        .any(|w| w.contains("accepted (EnergyGain)"));
+    assert!(told, "{:?}", taken.warnings);
+}
+
+#[test]
+fn an_audit_that_does_not_close_is_unreliable() {
+    let loose = run("loose", SPINNING, &["solver=(newton_tolerance: Some(0.3))"]);
+    assert_eq!(loose.status, Status::Unreliable);
+    let reason = loose.reason.unwrap();
+    assert!(reason.contains("newton_tolerance"), "{reason}");
+}
+
+#[test]
+fn a_run_without_any_energy_is_completed_and_without_warning() {
+    let carried = run("carried", CARRIED, &[]);
+    assert!(carried.energy.terms.load_work.abs() < 1e-6);
+    assert_eq!((carried.status, carried.reason), (Status::Completed, None));
+    assert!(carried.warnings.is_empty(), "{:?}", carried.warnings);
+}
+
+#[test]
+fn damping_that_hides_all_other_forces_is_refused() {
+    for (damping, bound) in [
+        (
+            "damping: (stiffness: 1e200)",
+            "at most 1e12 time.dt = 1e10 [s]",
+        ),
+        (
+            "damping: (mass: 1e15)",
+            "at most 1e12 / time.dt = 1e14 [1/s]",
+        ),
+    ] {
+        let text = SPINNING.replace("time: (", &format!("{damping}, time: ("));
+        let told = parse("damped", &text, &[]).unwrap_err().to_string();
+        assert!(told.contains(bound), "{told}");
+    }
+}
