@@ -29,6 +29,9 @@ const LONGEST_FILE: usize = 500;
 /// Widest line of a comment in columns, indentation included.
 const WIDEST_COMMENT: usize = 120;
 
+/// Largest picture of the docs in bytes.
+const HEAVIEST_PICTURE: usize = 200_000;
+
 /// What only the crate `scenarios` may do.
 const OUTSIDE_WORLD: &[&str] = &[
     "std::fs",
@@ -46,7 +49,7 @@ pub(crate) fn run() -> Outcome {
     let mut product = Vec::new();
     for (name, _) in ARROWS {
         let crate_root = root().join("crates").join(name);
-        for file in rust_files(&crate_root)? {
+        for file in files(&crate_root, "rs")? {
             let text = read(&file)?;
             let shown = shown(&file, &root());
             check_file(&shown, name, &text, &mut faults);
@@ -67,6 +70,12 @@ pub(crate) fn run() -> Outcome {
         }
     }
     faults.extend(copies::copies(&product));
+    for folder in ["crates", "xtask", "tests", "benches"] {
+        for file in files(&root().join(folder), "rs")? {
+            check_comments(&shown(&file, &root()), &read(&file)?, &mut faults);
+        }
+    }
+    check_pictures(&mut faults)?;
     if faults.is_empty() {
         Ok(())
     } else {
@@ -105,6 +114,33 @@ fn section<'a>(manifest: &'a str, title: &str) -> &'a str {
     rest.find("\n[").map_or(rest, |end| &rest[..end])
 }
 
+/// Comments of all packages have one width.
+fn check_comments(shown: &str, text: &str, faults: &mut Vec<String>) {
+    for (i, line) in text.lines().enumerate() {
+        let width = line.chars().count();
+        if line.trim_start().starts_with("//") && width > WIDEST_COMMENT {
+            faults.push(format!(
+                "{shown}:{}: a comment of {width} columns; {WIDEST_COMMENT} at most",
+                i + 1
+            ));
+        }
+    }
+}
+
+/// A picture of the docs has to open at once.
+fn check_pictures(faults: &mut Vec<String>) -> Outcome {
+    for file in files(&root().join("docs"), "svg")? {
+        let bytes = read(&file)?.len();
+        if bytes > HEAVIEST_PICTURE {
+            let shown = shown(&file, &root());
+            faults.push(format!(
+                "{shown}: {bytes} bytes; {HEAVIEST_PICTURE} at most"
+            ));
+        }
+    }
+    Ok(())
+}
+
 fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
     if shown.ends_with("mod.rs") {
         faults.push(format!(
@@ -114,15 +150,6 @@ fn check_file(shown: &str, krate: &str, text: &str, faults: &mut Vec<String>) {
     let lines = text.lines().count();
     if lines > LONGEST_FILE && !shown.contains("tests") {
         faults.push(format!("{shown}: {lines} lines; is it still one room?"));
-    }
-    for (i, line) in text.lines().enumerate() {
-        let width = line.chars().count();
-        if line.trim_start().starts_with("//") && width > WIDEST_COMMENT {
-            faults.push(format!(
-                "{shown}:{}: a comment of {width} columns; {WIDEST_COMMENT} at most",
-                i + 1
-            ));
-        }
     }
     if krate == "scenarios" || !is_product(shown) {
         return;
@@ -213,7 +240,8 @@ fn bibliography_keys() -> Result<BTreeSet<String>, String> {
         .collect())
 }
 
-fn rust_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
+/// Files below a folder with this ending, without what is built.
+fn files(folder: &Path, ending: &str) -> Result<Vec<PathBuf>, String> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_path_buf()];
     while let Some(next) = folders.pop() {
@@ -221,7 +249,7 @@ fn rust_files(folder: &Path) -> Result<Vec<PathBuf>, String> {
         for path in entries.filter_map(Result::ok).map(|e| e.path()) {
             if path.is_dir() && !path.ends_with("target") {
                 folders.push(path);
-            } else if path.extension().is_some_and(|e| e == "rs") {
+            } else if path.extension().is_some_and(|e| e == ending) {
                 files.push(path);
             }
         }

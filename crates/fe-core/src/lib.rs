@@ -48,6 +48,7 @@ pub use element::{
     corner_points, reference_gradients,
 };
 pub use error::FeError;
+pub use hyperelastic;
 pub use hyperelastic::ROUND_OFF;
 pub use kinematics::{deformation_gradient, linear_strain_matrix, nonlinear_strain_matrix};
 pub use mass::MassMatrix;

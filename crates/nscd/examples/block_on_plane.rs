@@ -68,7 +68,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut totals = Totals::default();
 
     println!("  t [s]  floor F_z [N]  top F_z [N]  strain [J]   work [J]  friction [J]  open [J]");
-    let span = Span { end: 1.0, dt: 0.1 };
+    let span = Span::new(1.0, 0.1);
     march(&mut stepper, &mut state, span, &mut totals, &mut Printer)?;
 
     println!("\nEnergy terms of the run:");

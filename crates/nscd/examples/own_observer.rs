@@ -57,7 +57,7 @@ fn throw(name: &str, scheme: Scheme) -> Result<Curve, Box<dyn Error>> {
     let mut state = stepper.initial_state([0.0, 0.0, -2.0].repeat(model.dof_count() / 3))?;
     let (mut curve, mut totals) = (Curve::default(), Totals::default());
     let (end, dt) = (0.02, 2.5e-4);
-    let span = Span { end, dt };
+    let span = Span::new(end, dt);
     march(&mut stepper, &mut state, span, &mut totals, &mut curve)?;
     println!(
         "contact at the {name} level, rejected steps: {}",

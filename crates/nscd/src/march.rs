@@ -76,11 +76,20 @@ impl Totals {
 
 /// Span of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Span {
     /// End time \[s\].
     pub end: f64,
     /// Nominal step \[s\].
     pub dt: f64,
+}
+
+impl Span {
+    /// From zero to `end` \[s\] in steps of `dt` \[s\].
+    #[must_use]
+    pub const fn new(end: f64, dt: f64) -> Self {
+        Self { end, dt }
+    }
 }
 
 /// Runs from `state` to the end of the span. A failed step is cut in half, with its reason kept,
@@ -100,7 +109,7 @@ pub struct Span {
 /// let mut stepper = Stepper::new(&model, Box::new(NoClock))?;
 /// let mut state = stepper.initial_state([1.0, 0.0, 0.0].repeat(20))?;
 /// let mut totals = Totals::default();
-/// let span = Span { end: 0.1, dt: 0.01 };
+/// let span = Span::new(0.1, 0.01);
 /// march(&mut stepper, &mut state, span, &mut totals, &mut ())?;
 /// assert_eq!(stepper.counters().steps, 10);
 /// assert!((state.kinetic_energy / totals.initial_energy - 1.0).abs() < 1e-12);

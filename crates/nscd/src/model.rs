@@ -33,6 +33,7 @@ impl Load {
     derive(serde::Serialize, serde::Deserialize),
     serde(default, deny_unknown_fields)
 )]
+#[non_exhaustive]
 pub struct Rayleigh {
     /// Factor of the mass matrix \[1/s\].
     pub mass: f64,
@@ -41,6 +42,12 @@ pub struct Rayleigh {
 }
 
 impl Rayleigh {
+    /// Damping `mass M + stiffness K_0`: factors \[1/s\] and \[s\].
+    #[must_use]
+    pub const fn new(mass: f64, stiffness: f64) -> Self {
+        Self { mass, stiffness }
+    }
+
     /// No damping at all.
     pub(crate) fn is_none(&self) -> bool {
         self.mass == 0.0 && self.stiffness == 0.0

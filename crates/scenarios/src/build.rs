@@ -63,10 +63,7 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
         .with_settings(settings(scene));
     (model.supports, model.loads, model.interfaces) = (supports, loads, interfaces);
     let probes = probes(scene, model.solid.mesh(), &first_node);
-    let span = Span {
-        end: scene.time.end,
-        dt: scene.time.dt,
-    };
+    let span = Span::new(scene.time.end, scene.time.dt);
     Ok(Built {
         model,
         velocity,

@@ -230,7 +230,7 @@ impl Problem {
         model.supports = supports;
         let mut stepper = Stepper::new(&model, Box::new(NoClock)).unwrap();
         let mut state = stepper.initial_state(vec![0.0; model.dof_count()]).unwrap();
-        let span = Span { end: 1.0, dt: 1.0 };
+        let span = Span::new(1.0, 1.0);
         let totals = &mut Totals::default();
         march(&mut stepper, &mut state, span, totals, &mut ()).unwrap();
         state.u

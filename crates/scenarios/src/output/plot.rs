@@ -11,10 +11,11 @@ mod color;
 mod deformed;
 mod maps;
 mod patches;
+mod picture;
 mod scale;
 mod style;
 
-use self::style::picture;
+use self::picture::picture;
 use super::History;
 use crate::energies::ENERGY_TERMS;
 

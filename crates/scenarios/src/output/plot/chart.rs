@@ -3,8 +3,9 @@
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
+use super::picture::picture;
 use super::scale::Scale;
-use super::style::{Area, COLORS, Drawn, FINE, GRID, INK, font, ipx, picture, px};
+use super::style::{Area, COLORS, Drawn, FINE, GRID, INK, font, ipx, px};
 
 /// Width and height of a chart of a grid, and its legend's column, in shown pixels.
 const PANEL: [u32; 2] = [600, 370];

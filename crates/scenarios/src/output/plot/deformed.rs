@@ -7,8 +7,9 @@ use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
 use super::patches::{Paint, Patch, shaded};
+use super::picture::picture;
 use super::scale::Scale;
-use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, picture, px};
+use super::style::{Area, Drawn, FINE, INK, centred, font, ipx, px};
 use crate::output::Frame;
 
 const WIDTH: u32 = 900;
@@ -24,6 +25,8 @@ const EYE: Vector3<f64> = Vector3::new(1.0, -1.5, 0.85);
 const LAMP: Vector3<f64> = Vector3::new(0.35, -0.55, 0.75);
 /// Light of a face that looks away from the lamp; a full one has 1.
 const AMBIENT: f64 = 0.74;
+/// Colour of bodies without values.
+const GREY: RGBColor = RGBColor(170, 180, 195);
 /// Steps of light between dark and full: faces of one direction and value share a path.
 const LIGHTS: f64 = 64.0;
 
@@ -273,49 +276,45 @@ struct Scenery<'a> {
     parts: usize,
 }
 
-/// The parts of a face; the last one carries the rim of all.
-fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
-    let Scenery {
-        points,
-        view,
-        fit,
-        stress,
-        scale,
-        parts,
-    } = *scenery;
-    // A triangle is a quadrilateral whose last corner stands twice.
-    let corner = |i: usize| face.nodes[i.min(face.nodes.len() - 1)];
-    let at = |s: f64, t: f64| {
+impl Scenery<'_> {
+    /// Pixel and value at the place `s`, `t` of a face, each from 0 to 1.
+    fn at(&self, face: &Visible<'_>, s: f64, t: f64) -> ((i32, i32), f64) {
         let weights = [(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t];
         let mut place = Vector3::zeros();
         let mut value = 0.0;
         for (i, w) in weights.into_iter().enumerate() {
-            let node = corner(i);
-            place += w * view.project(&points[node]);
-            value += w * stress.map_or(0.0, |stress| stress[node]);
+            // A triangle is a quadrilateral whose last corner stands twice.
+            let node = face.nodes[i.min(face.nodes.len() - 1)];
+            place += w * self.view.project(&self.points[node]);
+            value += w * self.stress.map_or(0.0, |stress| stress[node]);
         }
-        (fit.pixel(place), value)
-    };
+        (self.fit.pixel(place), value)
+    }
+
+    /// Colour of a part of a face with the mean value `mean`.
+    fn color(&self, face: &Visible<'_>, mean: f64) -> RGBColor {
+        let base = match self.stress {
+            Some(_) => color(self.scale, mean),
+            None => GREY,
+        };
+        shaded(base, face.light)
+    }
+}
+
+/// The parts of a face, and the rim of all where there are several.
+fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
+    let parts = scenery.parts;
     let step = 1.0 / parts as f64;
     let mut patches = Vec::with_capacity(parts * parts);
     for i in 0..parts {
         for j in 0..parts {
             let (s, t) = (i as f64 * step, j as f64 * step);
-            let patch = [
-                at(s, t),
-                at(s + step, t),
-                at(s + step, t + step),
-                at(s, t + step),
-            ];
-            let mean = patch.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
-            let base = if stress.is_some() {
-                color(scale, mean)
-            } else {
-                RGBColor(170, 180, 195)
-            };
-            let color = shaded(base, face.light);
+            let corners = [(s, t), (s + step, t), (s + step, t + step), (s, t + step)];
+            let corners = corners.map(|(s, t)| scenery.at(face, s, t));
+            let mean = corners.iter().map(|(_, value)| value).sum::<f64>() / 4.0;
+            let color = scenery.color(face, mean);
             patches.push(Patch {
-                outline: patch.iter().map(|(pixel, _)| *pixel).collect(),
+                outline: corners.iter().map(|(pixel, _)| *pixel).collect(),
                 paint: if parts == 1 {
                     Paint::Face(color)
                 } else {
@@ -325,12 +324,10 @@ fn patches_of(face: &Visible<'_>, scenery: &Scenery<'_>) -> Vec<Patch> {
         }
     }
     if parts > 1 {
-        let rim = face
-            .nodes
-            .iter()
-            .map(|node| fit.pixel(view.project(&points[*node])));
+        let (view, fit) = (scenery.view, scenery.fit);
+        let corners = face.nodes.iter().map(|node| scenery.points[*node]);
         patches.push(Patch {
-            outline: rim.collect(),
+            outline: corners.map(|x| fit.pixel(view.project(&x))).collect(),
             paint: Paint::Rim,
         });
     }

@@ -4,8 +4,9 @@ use plotters::prelude::*;
 
 use super::color::{color, draw_bar};
 use super::patches::{Paint, Patch};
+use super::picture::picture;
 use super::scale::Scale;
-use super::style::{Area, Drawn, centred, font, ipx, picture};
+use super::style::{Area, Drawn, centred, font, ipx};
 
 /// Least and largest side of a frame, width of all frames where that allows; column of the names of the rows, heading
 /// with the names of the columns, column of the bar; shown pixels.
