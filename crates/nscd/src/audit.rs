@@ -17,8 +17,8 @@ const TRIAL_STRAIN: f64 = 1e-4;
 pub struct EnergyAudit {
     /// The most that was in play \[J\]: stored (without signs), done by loads, dissipated.
     pub in_play: f64,
-    /// Energy that counts as none \[J\]: that of all bodies at a strain of round-off, and what the forces of that strain
-    /// do along the way of the bodies.
+    /// Energy that counts as none \[J\]: that of all bodies at a strain of round-off, and what the forces of that
+    /// strain do along the way of the bodies.
     pub nothing: f64,
     /// The most that the balance of all steps so far left open \[J\]; infinite where a term is not a number.
     pub open: f64,
@@ -87,7 +87,8 @@ impl EnergyAudit {
     }
 }
 
-/// Energy \[J\] and sum of the forces \[N\] of all bodies at a strain of round-off, from those of a small uniform stretch.
+/// Energy \[J\] and sum of the forces \[N\] of all bodies at a strain of round-off, from those of a small uniform
+/// stretch.
 fn of_round_off(model: &Model) -> (f64, f64) {
     let positions = model.positions(&vec![0.0; model.dof_count()]);
     let stretch: Vec<f64> = positions.iter().map(|x| TRIAL_STRAIN * x).collect();

@@ -3,7 +3,8 @@
 use super::{Checker, MAX_STEPS, unknown};
 use crate::spec::{ContactLevel, FieldsEvery, Inertia, Layout, Plot, Probe};
 
-/// Most damping of a mass over a step, or of a stiffness in steps \[-\]: forces of 1e-12 of another one keep four digits.
+/// Most damping of a mass over a step, or of a stiffness in steps \[-\]: forces of 1e-12 of another one keep four
+/// digits.
 const MOST_DAMPING: f64 = 1e12;
 
 impl Checker<'_> {
