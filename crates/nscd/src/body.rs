@@ -3,12 +3,12 @@
 use contact_bipotential::CompliancePart;
 use fe_core::{Solid, SymmetricPattern, node_adjacency};
 
-use crate::contact_stiffness::ContactStiffness;
+use crate::anchors::{Anchors, shears};
+use crate::contact_stiffness::{ContactStiffness, augment};
 use crate::cost::COSTS;
 use crate::elements::Elements;
 use crate::error::{NscdError, StepFailure};
-use crate::flat::norm;
-use crate::floating::is_floating;
+use crate::flat::{equations, norm};
 use crate::linear::{Condensed, Factor, Indefinite, LowerPattern};
 use crate::model::Model;
 use crate::ordering::{Graph, elimination_order};
@@ -21,8 +21,6 @@ const GOOD_SOLVE: f64 = 1e-10;
 const LAST_SOLVE: f64 = 1e-6;
 /// Solves of one right hand side, the refinements included.
 const SOLVES: usize = 3;
-/// Stiffness that is lent to the rigid motions of a body without supports, over that of its stiffest unknown \[-\].
-const FLOATING: f64 = 1e-4;
 /// Part of the diagonal that an indefinite matrix is first shifted by \[-\].
 const FIRST_SHIFT: f64 = 1e-4;
 /// Factor from one shift to the next \[-\]: few tries, and hardly more than ten times what suffices.
@@ -37,8 +35,8 @@ pub(crate) struct BodySystem {
     index: usize,
     /// Unknowns a node, of which some may be prescribed.
     dim: usize,
-    /// Without mass supports alone do not hold the body: some rigid motion costs no force.
-    pub(crate) floating: bool,
+    /// Springs where without mass supports alone do not hold the body: some rigid motion costs no force.
+    anchors: Anchors,
     /// Global dof of each equation.
     pub(crate) dofs: Vec<u32>,
     pattern: SymmetricPattern,
@@ -79,11 +77,33 @@ impl BodySystem {
             .filter(|(_, nodes)| nodes.iter().any(unknown))
             .map(|(index, nodes)| {
                 let mut body = Self::new(&model.solid, graph, index, fixed, &candidate)?;
-                let massless = model.scheme.inertia == Inertia::QuasiStatic;
-                body.floating = massless && is_floating(model, nodes, fixed);
+                if model.scheme.inertia == Inertia::QuasiStatic {
+                    body.anchors = Anchors::of(model, nodes, fixed, &body.dofs);
+                }
                 Ok(body)
             })
             .collect()
+    }
+
+    /// Measures how stiff the bodies are, for the springs of those that supports do not hold.
+    pub(crate) fn compare(bodies: &mut [Self], elements: &Elements<'_>, weights: Weights) {
+        if bodies.iter().all(|body| body.anchors.is_empty()) {
+            return;
+        }
+        let stiffness = bodies.iter_mut().map(|body| {
+            if !body.anchors.is_measured() {
+                body.assemble(elements, weights);
+                let (pattern, largest) = (lower_of(&body.pattern), body.largest_diagonal());
+                let shears = shears(elements.model(), body.index, &body.dofs);
+                body.anchors
+                    .measure(&shears, pattern, &body.values, largest);
+            }
+            body.anchors.own_stiffness()
+        });
+        let softest = stiffness.fold(f64::INFINITY, f64::min);
+        bodies
+            .iter_mut()
+            .for_each(|body| body.anchors.compare(softest));
     }
 
     /// Orders and analyses the body `index`; `candidate` tells the nodes that may touch.
@@ -110,7 +130,7 @@ impl BodySystem {
         Ok(Self {
             index,
             dim,
-            floating: false,
+            anchors: Anchors::default(),
             factor: Factor::new(lower_of(&pattern))?,
             values: vec![0.0; pattern.row_indices().len()],
             dofs,
@@ -128,6 +148,11 @@ impl BodySystem {
             rhs: vec![0.0; n],
             solution: vec![0.0; n],
         })
+    }
+
+    /// Springs that hold the body while it is corrected, where supports do not.
+    pub(crate) fn anchors(&self) -> &Anchors {
+        &self.anchors
     }
 
     /// Contraction of the residual per iteration that the factor in use was last seen to give.
@@ -188,15 +213,6 @@ impl BodySystem {
             .fold(0.0, |m, [whole, _]| m.max(*whole))
     }
 
-    /// The diagonal of the matrix as it is.
-    fn diagonal(&self) -> Vec<f64> {
-        let columns = self.pattern.column_pointers().iter();
-        columns
-            .take(self.dofs.len())
-            .map(|&k| self.values[k])
-            .collect()
-    }
-
     /// Assembles and factorizes `stiffness K + damping A + mass M`. An indefinite matrix is made definite by the
     /// stiffness of `contacts`, those of other bodies are ignored, and if that does not suffice by adding to its
     /// diagonal, as little as needed in powers of ten. It is counted.
@@ -213,8 +229,9 @@ impl BodySystem {
         self.condensed = None;
         self.surface = None;
         self.assemble(elements, weights);
-        if self.floating {
-            self.stiffen(FLOATING);
+        if !self.anchors.is_empty() {
+            self.anchors
+                .enter(lower_of(&self.pattern), &mut self.values);
         }
         self.factorize_shifted(contacts, counters)?;
         self.factored = Some(weights);
@@ -225,7 +242,7 @@ impl BodySystem {
         let model = elements.model();
         self.pattern
             .gather_tangent(elements.tangents(), weights.stiffness, &mut self.values);
-        let elastic = self.diagonal();
+        let elastic = lower_of(&self.pattern).diagonal(&self.values);
         if let Some((initial, factor)) = elements.damping_stiffness() {
             let mut damping = vec![0.0; self.values.len()];
             self.pattern
@@ -240,7 +257,10 @@ impl BodySystem {
         for (softest, now) in self.softest.iter_mut().zip(&elastic) {
             *softest = softest.min(now.abs());
         }
-        let both = self.diagonal().into_iter().zip(elastic);
+        let both = lower_of(&self.pattern)
+            .diagonal(&self.values)
+            .into_iter()
+            .zip(elastic);
         self.diagonals = both.map(|(whole, elastic)| [whole, elastic]).collect();
     }
 
@@ -268,33 +288,6 @@ impl BodySystem {
         &self.contacts
     }
 
-    /// Puts the stiffness of those contacts into the matrix that belong to the body.
-    fn augment(&mut self, contacts: &[ContactStiffness]) {
-        let count = self.dofs.iter().map(|&d| d as usize + 1).max();
-        let mut equation = vec![usize::MAX; count.unwrap_or(0) + self.dim];
-        for (k, &d) in self.dofs.iter().enumerate() {
-            equation[d as usize] = k;
-        }
-        let (pointers, rows) = (self.pattern.column_pointers(), self.pattern.row_indices());
-        let known = |d: usize| equation.get(d).copied().filter(|&e| e != usize::MAX);
-        for contact in contacts {
-            let mut contact = *contact;
-            let diagonals = &self.diagonals;
-            let diagonal = |d: usize| known(d).map_or(0.0, |e| diagonals[e][0]);
-            let values = &mut self.values;
-            contact.enter(self.dim, diagonal, |i, j, value| {
-                let (Some(i), Some(j)) = (known(i), known(j)) else {
-                    return;
-                };
-                let column = pointers[i.min(j)]..pointers[i.min(j) + 1];
-                if let Ok(k) = rows[column.clone()].binary_search(&i.max(j)) {
-                    values[column.start + k] += value;
-                }
-            });
-            self.contacts.push(contact);
-        }
-    }
-
     fn factorize_shifted(
         &mut self,
         contacts: &[ContactStiffness],
@@ -306,10 +299,22 @@ impl BodySystem {
         };
         counters.indefinite_tangents += 1;
         if !contacts.is_empty() {
-            self.augment(contacts);
+            let pattern = lower_of(&self.pattern);
+            let diagonal = |e: usize| self.diagonals[e][0];
+            self.contacts = augment(
+                contacts,
+                self.dim,
+                &self.dofs,
+                diagonal,
+                pattern,
+                &mut self.values,
+            );
             if self.factorize(counters).is_ok() {
                 return Ok(());
             }
+        }
+        if self.stiffen_anchors(counters) {
+            return Ok(());
         }
         let mut shift = FIRST_SHIFT;
         loop {
@@ -330,6 +335,21 @@ impl BodySystem {
                 });
             }
             shift *= NEXT_SHIFT;
+        }
+    }
+
+    /// Whether stiffer springs make the matrix definite.
+    fn stiffen_anchors(&mut self, counters: &mut Counters) -> bool {
+        let mut attempt = 0;
+        loop {
+            let pattern = lower_of(&self.pattern);
+            if !self.anchors.stiffen(attempt, pattern, &mut self.values) {
+                return false;
+            }
+            if self.factorize(counters).is_ok() {
+                return true;
+            }
+            attempt += 1;
         }
     }
 
@@ -355,7 +375,25 @@ impl BodySystem {
         }
         self.surface = Some(surface);
         self.condensed = Some(CompliancePart::new(offset, c)?);
+        self.move_anchors(total_dofs);
         Ok(())
+    }
+
+    /// Finds what a unit force on each spring moves.
+    fn move_anchors(&mut self, total_dofs: usize) {
+        let mut motions = Vec::new();
+        for &spring in self.anchors.equations() {
+            let mut x = vec![0.0; self.dofs.len()];
+            x[spring] = 1.0;
+            self.factor.forward(&mut x);
+            self.factor.backward(&mut x);
+            let mut motion = vec![0.0; total_dofs];
+            for (x, &d) in x.iter().zip(&self.dofs) {
+                motion[d as usize] = *x;
+            }
+            motions.push(motion);
+        }
+        self.anchors.set_motions(motions);
     }
 
     /// First half of a solve: `y = L^-1 b` for the residual `b` (global).
@@ -442,15 +480,6 @@ impl BodySystem {
 /// The dofs of a node.
 fn dofs_of(node: u32, dim: usize) -> impl Iterator<Item = u32> {
     (0..dim as u32).map(move |c| dim as u32 * node + c)
-}
-
-/// The equation of each of `count` dofs, those of a body in their order; `u32::MAX` where there is none.
-fn equations(dofs: &[u32], count: usize) -> Vec<u32> {
-    let mut equation = vec![u32::MAX; count];
-    for (k, &d) in dofs.iter().enumerate() {
-        equation[d as usize] = k as u32;
-    }
-    equation
 }
 
 fn lower_of(pattern: &SymmetricPattern) -> LowerPattern<'_> {

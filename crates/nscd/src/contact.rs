@@ -122,7 +122,8 @@ impl ContactSolver {
         counters.contact_iterations += outcome.iterations as u64;
         counters.contacts_max = counters.contacts_max.max(map.len() as u64);
         let error = outcome.error.max(outcome.error_scale_free);
-        if error > tolerance.max(model.settings.contact_tolerance) {
+        // Where round-off leaves a little more, the exact gaps of the next iterate decide.
+        if error > tolerance.max(model.settings.stagnant_contact_error()) {
             return Err(unsolved(model, map, &outcome, !bonds.is_empty()));
         }
         let mut force = vec![0.0; model.dof_count()];
@@ -213,8 +214,9 @@ fn acting(iterate: &NewtonIterate, free: &[f64]) -> Vec<bool> {
     iterate.bonds.iter().enumerate().map(one).collect()
 }
 
-/// Which candidates enter the contact problem: those with a force or a bond, and those that the correction brings near.
-/// The others are checked with their exact gap in the next iteration.
+/// Which candidates enter the contact problem: those with a force or a bond, those that the correction brings near, and
+/// those that are closed: where other contacts press, the free motion may lead a node far away that they push back. The
+/// others are checked with their exact gap in the next iteration.
 fn entering(model: &Model, iterate: &NewtonIterate, free: &[f64], acts: &[bool]) -> Vec<bool> {
     let map = &iterate.map;
     if model.scheme.contact == ContactLevel::Velocity {
@@ -227,7 +229,7 @@ fn entering(model: &Model, iterate: &NewtonIterate, free: &[f64], acts: &[bool])
     };
     let bonded = |k: usize| acts.get(k).is_some_and(|acts| *acts);
     (0..map.len())
-        .map(|k| near(k) || iterate.is_pressed(k) || bonded(k))
+        .map(|k| near(k) || iterate.gap(k) <= 0.0 || iterate.is_pressed(k) || bonded(k))
         .collect()
 }
 

@@ -8,6 +8,8 @@
 use contact_bipotential::{Contact, ContactKey, ContactMap};
 use nalgebra::Vector3;
 
+use crate::flat::equations;
+use crate::linear::LowerPattern;
 use crate::newton_iterate::NewtonIterate;
 
 /// Stiffness of a contact over the largest diagonal entry of its node \[-\].
@@ -35,6 +37,39 @@ pub(crate) fn contact_stiffness(iterate: &NewtonIterate) -> Vec<ContactStiffness
         stiffness: 0.0,
     };
     pressed.map(along_normal).collect()
+}
+
+/// Puts the stiffness of those contacts into a matrix that belong to its unknowns, `dofs` in the order of the
+/// equations with `dim` a node, and returns them. `diagonal` gives the entry of an equation as it was \[N/m\].
+pub(crate) fn augment(
+    contacts: &[ContactStiffness],
+    dim: usize,
+    dofs: &[u32],
+    diagonal: impl Fn(usize) -> f64,
+    pattern: LowerPattern<'_>,
+    values: &mut [f64],
+) -> Vec<ContactStiffness> {
+    let count = dofs.iter().map(|&d| d as usize + 1).max();
+    let equation = equations(dofs, count.unwrap_or(0));
+    let known = |d: usize| {
+        let equation = equation.get(d).filter(|&&e| e != u32::MAX);
+        equation.map(|&e| e as usize)
+    };
+    let entered = contacts.iter().map(|contact| {
+        let mut contact = *contact;
+        let at = |d: usize| known(d).map_or(0.0, &diagonal);
+        contact.enter(dim, at, |i, j, value| {
+            let (Some(i), Some(j)) = (known(i), known(j)) else {
+                return;
+            };
+            let column = pattern.pointers[i.min(j)]..pattern.pointers[i.min(j) + 1];
+            if let Ok(k) = pattern.rows[column.clone()].binary_search(&i.max(j)) {
+                values[column.start + k] += value;
+            }
+        });
+        contact
+    });
+    entered.collect()
 }
 
 impl ContactStiffness {

@@ -86,8 +86,8 @@ pub enum NscdError {
     },
     /// A quasi-static body that nothing holds.
     #[error(
-        "the prescribed motions leave the body of node {node} free to move as a whole: without inertia nothing holds it; hold \
-         more of its nodes, or give it inertia"
+        "the prescribed motions leave the body of node {node} free to move as a whole, and no interface could hold it: without \
+         inertia nothing does; hold more of its nodes, let it touch something, or give it inertia"
     )]
     Unsupported {
         /// First node of the body.

@@ -12,6 +12,12 @@ const MOTIONS: usize = 6;
 
 /// Whether a rigid motion of the body with these nodes moves no prescribed unknown.
 pub(crate) fn is_floating(model: &Model, nodes: &[u32], fixed: &[bool]) -> bool {
+    !loose_unknowns(model, nodes, fixed).is_empty()
+}
+
+/// Unknowns of the body with these nodes that would hold it, together with what is prescribed, if they were prescribed
+/// too: as few as possible, and far apart. None where supports hold the body.
+pub(crate) fn loose_unknowns(model: &Model, nodes: &[u32], fixed: &[bool]) -> Vec<u32> {
     let mesh = model.solid.mesh();
     let dim = model.solid.dim();
     let count = nodes.len().max(1) as f64;
@@ -20,13 +26,19 @@ pub(crate) fn is_floating(model: &Model, nodes: &[u32], fixed: &[bool]) -> bool 
     let arm = |n: u32| mesh.points[n as usize] - center;
     let size = nodes.iter().map(|&n| arm(n).amax());
     let size = size.fold(f64::MIN_POSITIVE, f64::max);
-    let mut rows = Vec::new();
+    let mut rows = Elimination::default();
     for &n in nodes {
-        for c in (0..dim).filter(|&c| fixed[dim * n as usize + c]) {
-            rows.push(rigid_motions(mesh.symmetry, arm(n) / size, c));
+        for c in 0..dim {
+            let dof = dim * n as usize + c;
+            let row = rigid_motions(mesh.symmetry, arm(n) / size, c);
+            rows.push(row, dof as u32, fixed[dof]);
         }
     }
-    rank(rows) < rigid_count(mesh.symmetry)
+    rows.pivots(true);
+    if rows.rank == rigid_count(mesh.symmetry) {
+        return Vec::new();
+    }
+    rows.pivots(false)
 }
 
 fn rigid_count(symmetry: Symmetry) -> usize {
@@ -61,26 +73,58 @@ fn rigid_motions(symmetry: Symmetry, x: Vector3<f64>, c: usize) -> [f64; MOTIONS
     row
 }
 
-/// Rank by elimination with full pivoting.
-fn rank(mut rows: Vec<[f64; MOTIONS]>) -> usize {
-    for rank in 0..MOTIONS {
-        let entries = rows.iter().enumerate().skip(rank);
-        let entries =
-            entries.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, x)| (x.abs(), i, j)));
-        let best = entries.max_by(|a, b| a.0.total_cmp(&b.0));
-        let Some((size, i, j)) = best.filter(|(size, ..)| *size > HINDERED) else {
-            return rank;
-        };
-        debug_assert!(size.is_finite());
-        rows.swap(rank, i);
-        let pivot = rows[rank];
-        for row in &mut rows[rank + 1..] {
-            let factor = row[j] / pivot[j];
-            (0..MOTIONS).for_each(|k| row[k] -= factor * pivot[k]);
-            row[j] = 0.0;
-        }
+/// Components of the rigid motions at some unknowns, one row an unknown, and their elimination with full pivoting.
+#[derive(Debug, Default)]
+struct Elimination {
+    rows: Vec<Row>,
+    /// Rows that were pivots; they are the first.
+    rank: usize,
+}
+
+#[derive(Debug)]
+struct Row {
+    motions: [f64; MOTIONS],
+    dof: u32,
+    prescribed: bool,
+}
+
+impl Elimination {
+    fn push(&mut self, motions: [f64; MOTIONS], dof: u32, prescribed: bool) {
+        self.rows.push(Row {
+            motions,
+            dof,
+            prescribed,
+        });
     }
-    MOTIONS
+
+    /// Eliminates with the largest entries of the rows that are prescribed, or are not, until none is left; returns the
+    /// unknowns of the pivots.
+    fn pivots(&mut self, prescribed: bool) -> Vec<u32> {
+        let mut pivots = Vec::new();
+        while self.rank < MOTIONS {
+            let rows = self.rows.iter().enumerate().skip(self.rank);
+            let rows = rows.filter(|(_, row)| row.prescribed == prescribed);
+            let entries = rows.flat_map(|(i, row)| {
+                let entries = row.motions.iter().enumerate();
+                entries.map(move |(j, x)| (x.abs(), i, j))
+            });
+            let best = entries.max_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((size, i, j)) = best.filter(|(size, ..)| *size > HINDERED) else {
+                break;
+            };
+            debug_assert!(size.is_finite());
+            self.rows.swap(self.rank, i);
+            let pivot = self.rows[self.rank].motions;
+            self.rank += 1;
+            for row in &mut self.rows[self.rank..] {
+                let factor = row.motions[j] / pivot[j];
+                (0..MOTIONS).for_each(|k| row.motions[k] -= factor * pivot[k]);
+                row.motions[j] = 0.0;
+            }
+            pivots.push(self.rows[self.rank - 1].dof);
+        }
+        pivots
+    }
 }
 
 #[cfg(test)]
@@ -88,12 +132,13 @@ mod tests {
     use super::*;
 
     fn rank_of(symmetry: Symmetry, held: &[([f64; 3], &[usize])]) -> usize {
-        let rows = held.iter().flat_map(|(x, components)| {
-            components
-                .iter()
-                .map(|&c| rigid_motions(symmetry, (*x).into(), c))
-        });
-        rank(rows.collect())
+        let mut rows = Elimination::default();
+        for (x, components) in held {
+            for &c in *components {
+                rows.push(rigid_motions(symmetry, (*x).into(), c), 0, true);
+            }
+        }
+        rows.pivots(true).len()
     }
 
     #[test]

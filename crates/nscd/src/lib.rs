@@ -17,7 +17,7 @@
 //! monitor         operator        overlap      has it arrived; W; nodes inside the other body
 //! body            search                       matrix and factor; what touches what
 //! bonds           energy          law          adhesion; audit; error of the contact law
-//! contact_stiffness                            pressed contacts in an indefinite tangent
+//! contact_stiffness               anchors      pressed contacts in an indefinite tangent; springs of floating bodies
 //! newton_iterate                               what Newton's method improves
 //! local           tunnelling                   slip and gap; steps that are too long
 //! step_problem    unsupported                  what does not change in a step; bodies that nothing holds
@@ -33,6 +33,7 @@
 struct Readme;
 
 mod accept;
+mod anchors;
 mod audit;
 mod blocked;
 mod body;

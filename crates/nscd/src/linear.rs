@@ -32,6 +32,19 @@ impl LowerPattern<'_> {
         self.pointers.len() - 1
     }
 
+    /// The diagonal of the symmetric matrix whose lower triangle has the given values.
+    pub(crate) fn diagonal(&self, values: &[f64]) -> Vec<f64> {
+        let columns = self.pointers.iter().take(self.n());
+        columns.map(|&k| values[k]).collect()
+    }
+
+    /// `x . A x` for the symmetric matrix whose lower triangle has the given values.
+    pub(crate) fn energy(&self, values: &[f64], x: &[f64]) -> f64 {
+        let mut product = vec![0.0; x.len()];
+        self.subtract_product(values, x, &mut product);
+        -x.iter().zip(&product).map(|(x, y)| x * y).sum::<f64>()
+    }
+
     /// `y -= A x` for the symmetric matrix whose lower triangle has the given values.
     pub(crate) fn subtract_product(&self, values: &[f64], x: &[f64], y: &mut [f64]) {
         for j in 0..self.n() {

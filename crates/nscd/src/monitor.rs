@@ -52,6 +52,8 @@ const FRESH_ITERATIONS: f64 = 3.0;
 pub(crate) struct Check {
     pub(crate) iteration: usize,
     pub(crate) converged: bool,
+    /// Whether it converged with an error of the contact law above the tolerance, at the round-off of gaps and forces.
+    pub(crate) stagnant: bool,
     /// Largest residual force on a free dof \[N\]; where round-off is larger than what is allowed, the force counts in
     /// that ratio.
     pub(crate) residual: f64,
@@ -97,7 +99,7 @@ impl Check {
         iterate: &NewtonIterate,
         bodies: &[BodySystem],
     ) -> StepFailure {
-        let mut floating = bodies.iter().filter(|body| body.floating);
+        let mut floating = bodies.iter().filter(|body| !body.anchors().is_empty());
         if let Some(body) = floating.find(|body| self.is_left_in(body)) {
             return StepFailure::Adrift {
                 node: body.dofs[0] as usize / step.model.solid.dim(),
@@ -130,6 +132,8 @@ pub(crate) struct Monitor {
     calm: bool,
     /// Largest residual of the last iterations \[N\].
     recent: [f64; STAGNATION],
+    /// Errors of the contact law of the last iterations \[-\].
+    recent_errors: [f64; STAGNATION],
 }
 
 impl Monitor {
@@ -146,6 +150,7 @@ impl Monitor {
             last_distance: f64::MAX,
             calm: true,
             recent: [f64::MAX; STAGNATION],
+            recent_errors: [f64::MAX; STAGNATION],
         }
     }
 
@@ -163,11 +168,13 @@ impl Monitor {
         let (residual, dof) = self.residual(iterate, bodies, &bound, &scales.element_size)?;
         let blur = ROUND_OFF * (scales.extent + bound.travel) / settings.contact_tolerance;
         let law = LawError::of(step.model, memory, iterate, bound.stiffness, blur);
+        let balanced = residual <= self.allowed || self.is_round_off(residual);
+        let stagnant = self.is_stagnant(law.largest, settings.stagnant_contact_error());
+        let obeyed = law.largest <= settings.contact_tolerance;
         let check = Check {
             iteration: self.iteration,
-            converged: iterate.pending.is_none()
-                && (residual <= self.allowed || self.is_round_off(residual))
-                && law.largest <= settings.contact_tolerance,
+            converged: iterate.pending.is_none() && balanced && (obeyed || stagnant),
+            stagnant: !obeyed,
             residual,
             dof,
             node: dof as usize / bound.dim,
@@ -207,6 +214,15 @@ impl Monitor {
         let oldest = std::mem::replace(&mut self.recent[STAGNATION - 1], residual);
         let fallen = self.recent.iter().any(|r| *r < PROGRESS * oldest);
         self.iteration >= EARLIEST && !fallen && residual <= CLOSE * self.allowed
+    }
+
+    /// Whether the error of the contact law has stopped falling so close above the tolerance that it can only be the
+    /// round-off of gaps and forces.
+    fn is_stagnant(&mut self, error: f64, most: f64) -> bool {
+        self.recent_errors.rotate_left(1);
+        let oldest = std::mem::replace(&mut self.recent_errors[STAGNATION - 1], error);
+        let fallen = self.recent_errors.iter().any(|e| *e < PROGRESS * oldest);
+        self.iteration >= EARLIEST && !fallen && error <= most
     }
 
     /// Largest residual \[N\] and its dof; the contraction of every body goes to the body.

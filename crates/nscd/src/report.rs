@@ -40,6 +40,8 @@ pub struct Counters {
     pub bonded_solves: u64,
     /// Bonds that held when the contact search lost their pair.
     pub lost_bonds: u64,
+    /// Accepted steps whose error of the contact law lies above the tolerance, at the round-off of gaps and forces.
+    pub stagnant_steps: u64,
 }
 
 /// Part of the work that a time is booked on.

@@ -10,7 +10,8 @@ pub struct Settings {
     pub newton_tolerance: f64,
     /// Iterations before a step is cut (default 40).
     pub newton_iterations: usize,
-    /// Relative error of the contact law in an accepted step (default 1e-10) \[-\].
+    /// Relative error of the contact law in an accepted step (default 1e-10) \[-\]. Where no iteration lessens it any
+    /// more, a hundred times that, and 1e-8 at most, counts as round-off and is told.
     pub contact_tolerance: f64,
     /// Iterations of one contact solve, in the unit of its method (default 20000).
     pub contact_iterations: usize,
@@ -38,7 +39,19 @@ impl Default for Settings {
     }
 }
 
+/// Error of the contact law over the tolerance up to which an iteration that does not lessen it has met round-off
+/// \[-\].
+const STAGNANT: f64 = 100.0;
+/// Error of the contact law above which that is not believed \[-\].
+const MOST_STAGNANT: f64 = 1e-8;
+
 impl Settings {
+    /// Error of the contact law that is accepted where no iteration lessens it any more \[-\].
+    pub(crate) fn stagnant_contact_error(&self) -> f64 {
+        let bounded = (STAGNANT * self.contact_tolerance).min(MOST_STAGNANT);
+        bounded.max(self.contact_tolerance)
+    }
+
     /// The same settings with another [`newton_tolerance`](Self::newton_tolerance).
     #[must_use]
     pub const fn with_newton_tolerance(self, newton_tolerance: f64) -> Self {

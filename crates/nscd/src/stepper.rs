@@ -189,6 +189,7 @@ impl<'m> Stepper<'m> {
             let check = monitor.check(&step, &iterate, bodies, memory, &self.scales)?;
             if check.converged {
                 let unforeseen = self.confirm(&step, &mut iterate)?;
+                self.tally.counters.stagnant_steps += u64::from(check.stagnant);
                 return Ok(accept(&step, iterate, &check, &self.fixed, unforeseen));
             }
             if check.iteration == self.model.settings.newton_iterations {
@@ -305,6 +306,7 @@ impl<'m> Stepper<'m> {
             ContactLevel::Position => contact_stiffness(iterate),
             ContactLevel::Velocity => Vec::new(),
         };
+        BodySystem::compare(&mut self.bodies, &self.elements, step.weights);
         for (body, _) in self.bodies.iter_mut().zip(&stale).filter(|(_, s)| **s) {
             let counters = &mut self.tally.counters;
             body.refactor(&self.elements, step.weights, &contacts, counters)?;

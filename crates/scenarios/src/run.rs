@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use nscd::{Clock, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march};
+use nscd::{
+    Clock, Counters, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march,
+};
 use thiserror::Error;
 
 use crate::build::{Built, build};
@@ -223,7 +225,8 @@ fn rejection(r: &nscd::Rejection) -> String {
     format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
 }
 
-fn warnings(totals: &Totals, model: &Model, lost_bonds: u64) -> Vec<String> {
+fn warnings(totals: &Totals, model: &Model, counters: &Counters) -> Vec<String> {
+    let lost_bonds = counters.lost_bonds;
     let error = totals.energy.integration_error();
     let energies = energy_warning(model.scheme.inertia, &totals.audit, error);
     let mut warnings: Vec<String> = energies.into_iter().collect();
@@ -231,6 +234,12 @@ fn warnings(totals: &Totals, model: &Model, lost_bonds: u64) -> Vec<String> {
         warnings.push(format!(
             "{lost_bonds} bonds that still held were lost with their pair: nodes slid off their master or moved too far in one \
              step; try a larger master, smaller steps or a larger search_distance"
+        ));
+    }
+    if counters.stagnant_steps > 0 {
+        warnings.push(format!(
+            "in {} steps round-off kept the error of the contact law above the tolerance of {:e}: up to {:e}",
+            counters.stagnant_steps, model.settings.contact_tolerance, totals.max_contact_error
         ));
     }
     if let Some(overlap) = totals.overlap {
@@ -259,7 +268,7 @@ pub fn summarise(
     let (counters, solid) = (stepper.counters(), &stepper.model().solid);
     let energy = EnergySummary::new(totals.initial_energy, &energies(state, totals));
     let phases = Phase::ALL.iter().zip(stepper.phases());
-    let mut warnings = warnings(totals, stepper.model(), counters.lost_bonds);
+    let mut warnings = warnings(totals, stepper.model(), counters);
     let verdict = verdict(scene, &totals.audit);
     warnings.extend(verdict.accepted);
     let (status, reason) = match (stopped, verdict.objections.is_empty()) {

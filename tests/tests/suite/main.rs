@@ -14,6 +14,7 @@ mod convergence;
 mod counters;
 mod determinism;
 mod energy;
+mod held;
 mod impact;
 mod patch;
 mod program;
