@@ -23,6 +23,12 @@ pub trait Observer {
 
     /// A step was rejected and will be cut.
     fn rejected(&mut self, _rejection: &Rejection) {}
+
+    /// The next time after `time` that the observer wants to see exactly \[s\]. The nominal steps never change for it:
+    /// a step ends there where cut steps have left their grid.
+    fn next_time(&self, _time: f64) -> Option<f64> {
+        None
+    }
 }
 
 /// Wants to know nothing.
@@ -141,8 +147,8 @@ fn advance(
     totals: &mut Totals,
     observer: &mut dyn Observer,
 ) -> Result<(), NscdError> {
-    let mut control = Control::new(stepper.model(), span);
-    while let Some(dt) = control.next(state.time) {
+    let mut control = Control::new(stepper.model(), span, state.time);
+    while let Some(dt) = control.next(state.time, observer.next_time(state.time)) {
         match stepper.step(state, dt) {
             Ok((next, report)) => {
                 *state = next;
@@ -177,8 +183,12 @@ fn advance(
 #[derive(Debug)]
 struct Control {
     span: Span,
+    /// Where the run starts \[s\].
+    start: f64,
     /// End times that no step crosses, increasing; the nominal grid between them.
     targets: Vec<f64>,
+    /// Another time at which the step under way ends \[s\].
+    wanted: Option<f64>,
     /// Current step as a fraction `2^-level` of the nominal one.
     level: u32,
     smallest: f64,
@@ -193,6 +203,9 @@ struct Control {
     grown: bool,
 }
 
+/// A step is not cut for a time of whoever watches that is nearer than this part of it, so that no sliver can end a
+/// run \[-\]. Equal steps to a time on the nominal grid never leave less than a quarter.
+const NEAREST: f64 = 0.2;
 /// Patience never exceeds this multiple of its setting \[-\]: growth that always fails costs little, one step in 32 by
 /// default, and growth that succeeds again is not missed for long.
 const MOST_PATIENCE: usize = 16;
@@ -209,7 +222,7 @@ const HALF: f64 = 0.5;
 const CUT: f64 = 0.75;
 
 impl Control {
-    fn new(model: &Model, span: Span) -> Self {
+    fn new(model: &Model, span: Span, start: f64) -> Self {
         let mut targets: Vec<f64> = model
             .breakpoints()
             .into_iter()
@@ -218,7 +231,9 @@ impl Control {
         targets.push(span.end);
         Self {
             span,
+            start,
             targets,
+            wanted: None,
             level: 0,
             smallest: span.dt * model.settings.smallest_step,
             successes: 0,
@@ -235,11 +250,15 @@ impl Control {
     }
 
     /// Length of the next step from time `t`, `None` at the end. The steps to the next target are
-    /// made equal, so that round-off never leaves a sliver.
-    fn next(&self, t: f64) -> Option<f64> {
+    /// made equal, so that round-off never leaves a sliver. `asked` is a time for whoever watches: off the nominal grid
+    /// a target, too.
+    fn next(&mut self, t: f64, asked: Option<f64>) -> Option<f64> {
         let wish = self.length();
         let is_ahead = |target: &&f64| **target > t + SAME_TIME * wish;
         let target = *self.targets.iter().find(is_ahead)?;
+        let cut = self.level > 0 || !self.on_grid(t, target);
+        self.wanted = asked.filter(|&at| cut && at - t > NEAREST * wish && at < target);
+        let target = self.wanted.unwrap_or(target);
         let count = ((target - t) / wish - SLIVER).ceil().max(1.0);
         let even = (target - t) / count;
         // The same bits step after step keep the factorization.
@@ -250,17 +269,29 @@ impl Control {
         })
     }
 
+    /// Whether uncut steps to `target` pass through `t`.
+    fn on_grid(&self, t: f64, target: f64) -> bool {
+        let before = self.targets.iter().rev();
+        let from = before.copied().find(|&end| end < target);
+        let from = from.unwrap_or(self.start).max(self.start);
+        let count = ((target - from) / self.span.dt - SLIVER).ceil().max(1.0);
+        let steps = (t - from) / (target - from) * count;
+        (steps - steps.round()).abs() < SLIVER
+    }
+
     fn accepted(&mut self, state: &mut State) {
-        // Sums of steps reach the nominal grid and the targets up to round-off: put them there.
-        let grid = (state.time / self.span.dt).round() * self.span.dt;
-        let places = self.targets.iter().copied().chain([grid]);
-        if let Some(exact) = places
-            .into_iter()
-            .find(|t| (t - state.time).abs() < SAME_TIME * self.span.dt)
-        {
-            state.time = exact;
-        }
+        state.time = self.exact(state.time);
         self.grow();
+    }
+
+    /// Sums of steps reach the nominal grid and the targets up to round-off: the time that is meant.
+    fn exact(&self, time: f64) -> f64 {
+        let grid = (time / self.span.dt).round() * self.span.dt;
+        let places = self.targets.iter().copied().chain([grid]);
+        places
+            .chain(self.wanted)
+            .find(|t| (t - time).abs() < SAME_TIME * self.span.dt)
+            .unwrap_or(time)
     }
 
     fn grow(&mut self) {
@@ -313,11 +344,12 @@ impl Control {
 mod tests {
     use super::*;
 
-    /// Steps of a control for which every step above `longest(steps so far)` fails: accepted and rejected ones.
-    fn counts(longest: impl Fn(usize) -> f64, steps: usize) -> [usize; 2] {
-        let mut control = Control {
-            span: Span { end: 1e9, dt: 1.0 },
-            targets: vec![1e9],
+    fn control(span: Span) -> Control {
+        Control {
+            span,
+            start: 0.0,
+            targets: vec![span.end],
+            wanted: None,
             level: 0,
             smallest: 1e-3,
             successes: 0,
@@ -325,10 +357,15 @@ mod tests {
             patience: 2,
             failed: None,
             grown: false,
-        };
+        }
+    }
+
+    /// Steps of a control for which every step above `longest(steps so far)` fails: accepted and rejected ones.
+    fn counts(longest: impl Fn(usize) -> f64, steps: usize) -> [usize; 2] {
+        let mut control = control(Span { end: 1e9, dt: 1.0 });
         let (mut t, mut made) = (0.0, [0, 0]);
         while made[0] < steps {
-            let dt = control.next(t).unwrap();
+            let dt = control.next(t, None).unwrap();
             if dt > longest(made[0]) {
                 control
                     .rejected(t, dt, &StepFailure::NotFinite { node: 0 })
@@ -349,6 +386,47 @@ mod tests {
         let [made, failed] = counts(|_| 0.3, 1000);
         // Growth is tried after 2, 4, 8, 16 and then every 32 steps, and costs one failure each time.
         assert_eq!(failed, 2 + 4 + (made - 30) / 32);
+    }
+
+    /// Times of 20 steps of which the one from `fails` is cut twice, for somebody who wants to see `times`.
+    fn seen(times: &[f64], fails: f64) -> Vec<f64> {
+        let mut control = control(Span { end: 1e9, dt: 1.0 });
+        let (mut t, mut all, mut cuts) = (0.0, Vec::new(), 0);
+        while all.len() < 20 {
+            let asked = times.iter().copied().find(|&at| at > t);
+            let dt = control.next(t, asked).unwrap();
+            if t == fails && cuts < 2 {
+                cuts += 1;
+                let reason = StepFailure::NotFinite { node: 0 };
+                control.rejected(t, dt, &reason).unwrap();
+                continue;
+            }
+            t = control.exact(t + dt);
+            control.grow();
+            all.push(t);
+        }
+        all
+    }
+
+    #[test]
+    fn a_time_that_is_asked_for_ends_a_step_where_cuts_have_left_the_grid() {
+        let nominal: Vec<f64> = (1..=20).map(f64::from).collect();
+        assert_eq!(seen(&[3.0, 4.5, 7.25, 9.0], -1.0), nominal);
+        // Two quarters and two halves from 1 to 2.5, where the grid is left for good, but for what is asked for.
+        assert_eq!(seen(&[], 1.0)[..7], [1.0, 1.25, 1.5, 2.0, 2.5, 3.5, 4.5]);
+        let cut = seen(&[4.2, 6.0], 1.0);
+        assert!(cut.contains(&4.2) && cut.contains(&6.0), "{cut:?}");
+        let lengths = cut.windows(2).map(|pair| pair[1] - pair[0]);
+        assert!(
+            lengths.into_iter().all(|dt| dt > 0.2 && dt < 1.0 + 1e-9),
+            "{cut:?}"
+        );
+        // Back on the grid from there on.
+        assert_eq!(
+            cut[cut.len() - 5..],
+            [13.0, 14.0, 15.0, 16.0, 17.0],
+            "{cut:?}"
+        );
     }
 
     #[test]
