@@ -62,7 +62,7 @@ pub fn build(loaded: &LoadedScene) -> Result<Built, SceneError> {
         .with_scheme(scheme(scene))
         .with_settings(settings(scene));
     (model.supports, model.loads, model.interfaces) = (supports, loads, interfaces);
-    let probes = probes(scene, model.solid.mesh(), &first_node);
+    let probes = probes(loaded, model.solid.mesh(), &first_node)?;
     let span = Span::new(scene.time.end, scene.time.dt);
     Ok(Built {
         model,
@@ -276,14 +276,35 @@ fn settings(scene: &Scene) -> Settings {
         .with_smallest_step(smallest_step.unwrap_or(default.smallest_step))
 }
 
-fn probes(scene: &Scene, mesh: &Mesh, first_node: &[usize]) -> Vec<u32> {
-    let nearest = |probe: &spec::Probe| {
+fn probes(loaded: &LoadedScene, mesh: &Mesh, first_node: &[usize]) -> Result<Vec<u32>, SceneError> {
+    let scene = &loaded.scene;
+    let nearest = |(name, probe): (&String, &spec::Probe)| {
         let body = scene.bodies.get_index_of(&probe.body).unwrap_or(0);
-        let distance = |n: &usize| (mesh.points[*n] - Vector3::from(probe.node)).norm_squared();
+        let distance = |n: &usize| (mesh.points[*n] - Vector3::from(probe.node)).norm();
         let nodes = first_node[body]..first_node[body + 1];
-        nodes
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap_or(0) as u32
+        let node = nodes.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let node = node.unwrap_or(0);
+        let (off, cell) = (distance(&node), cell_size(mesh, node as u32));
+        if off > cell {
+            let message = format!(
+                "lies {off:e} m from the nearest node of body `{}`, farther than a cell there is large ({cell:e} m); that node \
+                 is at ({}, {}, {})",
+                probe.body, mesh.points[node].x, mesh.points[node].y, mesh.points[node].z
+            );
+            return Err(loaded.refuse(&format!("output.probes.{name}.node"), message));
+        }
+        Ok(node as u32)
     };
-    scene.output.probes.values().map(nearest).collect()
+    scene.output.probes.iter().map(nearest).collect()
+}
+
+/// Longest distance from a node to another one of its cells \[m\].
+fn cell_size(mesh: &Mesh, node: u32) -> f64 {
+    let cells = mesh
+        .blocks
+        .iter()
+        .flat_map(|block| block.cells.chunks_exact(block.kind.node_count()));
+    let around = cells.filter(|cell| cell.contains(&node)).flatten();
+    let far = around.map(|&n| (mesh.points[n as usize] - mesh.points[node as usize]).norm());
+    far.fold(0.0, f64::max)
 }

@@ -12,7 +12,8 @@ use scenarios::fclib;
 use scenarios::report;
 use serde::Serialize;
 
-use crate::{STOPPED, UNUSABLE, say};
+use crate::console::Console;
+use crate::{STOPPED, UNUSABLE};
 
 /// What to solve and how.
 #[derive(clap::Args)]
@@ -70,7 +71,7 @@ const NOT_CONVERGED: &str = "not converged";
 const UNREADABLE: &str = "unreadable";
 
 /// Solves and prints; the exit code is 0 if all is solved, 1 if something is not, 2 if something cannot be read.
-pub(crate) fn run(arguments: &Arguments) -> ExitCode {
+pub(crate) fn run(arguments: &Arguments, console: &Console) -> ExitCode {
     let settings = SolveSettings::default()
         .with_method(arguments.method)
         .with_tolerance(arguments.tol)
@@ -84,9 +85,9 @@ pub(crate) fn run(arguments: &Arguments) -> ExitCode {
         }
     }
     if arguments.json {
-        say(&json(&rows));
+        console.say(&json(&rows));
     } else {
-        say(&table(&rows));
+        console.say(&table(&rows));
     }
     let some = |status: &str| rows.iter().any(|r| r.status == status);
     if some(UNREADABLE) {
@@ -246,7 +247,8 @@ fn table(rows: &[Row]) -> String {
         }
     }
     let solved = rows.iter().filter(|r| r.status == CONVERGED).count();
-    let cpu: f64 = rows.iter().filter_map(|r| r.cpu_s).sum();
+    // An empty sum is -0.
+    let cpu: f64 = rows.iter().filter_map(|r| r.cpu_s).sum::<f64>() + 0.0;
     let _ = writeln!(
         text,
         "{solved} of {} solved, {cpu:.3} CPU seconds",

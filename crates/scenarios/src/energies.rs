@@ -84,6 +84,32 @@ impl Energies {
         ENERGY_TERMS.map(|term| (term.value)(self))
     }
 
+    /// The same with 0 for -0, the sum of nothing.
+    pub(crate) fn without_negative_zeros(self) -> Energies {
+        let Energies {
+            kinetic,
+            strain,
+            adhesive,
+            load_work,
+            friction_dissipation,
+            bond_dissipation,
+            damping_dissipation,
+            impact_loss,
+            integration_error,
+        } = self;
+        Energies {
+            kinetic: kinetic + 0.0,
+            strain: strain + 0.0,
+            adhesive: adhesive + 0.0,
+            load_work: load_work + 0.0,
+            friction_dissipation: friction_dissipation + 0.0,
+            bond_dissipation: bond_dissipation + 0.0,
+            damping_dissipation: damping_dissipation + 0.0,
+            impact_loss: impact_loss + 0.0,
+            integration_error: integration_error + 0.0,
+        }
+    }
+
     /// Kinetic, strain and adhesive energy together \[J\].
     #[must_use]
     pub fn stored(&self) -> f64 {

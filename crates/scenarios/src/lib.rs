@@ -9,10 +9,12 @@ pub mod output;
 pub mod report;
 pub mod spec;
 
+mod blame;
 mod build;
 mod clock;
 mod contacts;
 mod energies;
+mod estimate;
 mod fields;
 mod progress;
 mod row;
@@ -23,10 +25,11 @@ mod verdict;
 pub use build::{Built, build};
 pub use clock::Stopwatch;
 pub use contacts::NodeContact;
+pub use estimate::Estimate;
 pub use fields::Fields;
 pub use progress::Progress;
 pub use row::{first_row, row};
-pub use run::{Options, RunError, run, run_with, summarise};
+pub use run::{Options, RunError, check, run, run_with, summarise};
 pub use sweep::{Outcome, Planned, Sweep, SweepError, Vary};
 
 /// The example of the README compiles and runs.

@@ -1,25 +1,28 @@
 //! `setae`: soft bodies in contact, from a scene to audited results.
 
+mod console;
 mod contact_command;
+mod failure;
+mod news;
 mod sweep_command;
 
-use std::io::{IsTerminal as _, Write as _};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use clap::{Parser, Subcommand};
-use indicatif::{ProgressBar, ProgressStyle};
-use miette::{GraphicalReportHandler, GraphicalTheme};
-use scenarios::Progress;
 use scenarios::catalog;
-use scenarios::output::Status;
+use scenarios::output::{Status, earlier_results};
 use scenarios::report;
-use scenarios::spec::{Override, SceneError};
+use scenarios::spec::{LoadedScene, Override, SceneError};
 use scenarios::{Options, RunError};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_shutdown};
+
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::news::News;
 
 /// Soft bodies in contact: impact, friction and adhesion at finite strain.
 #[derive(Parser)]
@@ -88,8 +91,6 @@ enum Command {
     Contact(contact_command::Arguments),
 }
 
-/// Unknowns up to which a check builds the whole model too, which takes a second.
-const LARGEST_BUILT: usize = 300_000;
 /// Threads that can be asked for; more are a slip.
 const MOST_THREADS: i64 = 1024;
 /// What a shell adds to the number of the signal that ended a program to make its exit code.
@@ -100,13 +101,29 @@ const STOPPED: u8 = 1;
 const UNUSABLE: u8 = 2;
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
+    let console = Console::default();
+    let code = match Arguments::try_parse() {
+        Ok(arguments) => command(arguments.command, &console),
+        // Help and the version are such errors too.
+        Err(error) => match error.print() {
+            Ok(()) if error.exit_code() == 0 => ExitCode::SUCCESS,
+            _ => ExitCode::from(UNUSABLE),
+        },
+    };
+    if code == ExitCode::SUCCESS && console.is_unheard() {
+        return ExitCode::from(UNUSABLE);
+    }
+    code
+}
+
+fn command(command: Command, console: &Console) -> ExitCode {
+    let done = match command {
         Command::List => {
-            list();
+            list(console);
             Ok(ExitCode::SUCCESS)
         }
-        Command::Show { scene, sets } => show(&scene, &sets),
-        Command::Check { scene, sets } => check(&scene, &sets),
+        Command::Show { scene, sets } => show(&scene, &sets, console),
+        Command::Check { scene, sets } => check(&scene, &sets, console),
         Command::Run {
             scene,
             out,
@@ -117,95 +134,41 @@ fn main() -> ExitCode {
         } => {
             let folder = out.unwrap_or_else(|| catalog::default_folder(&scene));
             let dump = dump_contact.map(|n| n as usize);
-            run(&scene, folder, &sets, threads, dump, quiet)
+            let voice = Voice { console, quiet };
+            run(&scene, folder, &sets, threads, dump, &voice)
         }
-        Command::Sweep(arguments) => sweep_command::run(&arguments),
-        Command::Contact(arguments) => Ok(contact_command::run(&arguments)),
+        Command::Sweep(arguments) => sweep_command::run(&arguments, console),
+        Command::Contact(arguments) => Ok(contact_command::run(&arguments, console)),
     };
     done.unwrap_or_else(|failure| {
-        eprint!("{}", failure.text());
+        console.tell(&failure.text());
         ExitCode::from(UNUSABLE)
     })
 }
 
-/// An error that ends the program.
-enum Failure {
-    Scene(Box<SceneError>),
-    /// A combination of a sweep, and what is wrong with it.
-    Combination(String, Box<SceneError>),
-    Other(String),
+/// The console, and whether only errors go there.
+struct Voice<'a> {
+    console: &'a Console,
+    quiet: bool,
 }
 
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Failure::Scene(Box::new(error))
+/// The scene with all overrides, none of which undoes another one.
+fn load(scene: &str, sets: &[Override]) -> Result<LoadedScene, Failure> {
+    let loaded = catalog::load(scene, sets)?;
+    match loaded.source.undone() {
+        Some((first, second)) => Err(Failure::from(SceneError::Set {
+            path: first.path.clone(),
+            value: first.value.clone(),
+            reason: format!(
+                "is undone by --set {}={}; give one of the two",
+                second.path, second.value
+            ),
+        })),
+        None => Ok(loaded),
     }
 }
 
-impl Failure {
-    /// The error, with the lines of the scene when it has a place.
-    fn text(&self) -> String {
-        let (which, error) = match self {
-            Failure::Scene(error) => ("", error),
-            Failure::Combination(which, error) => (which.as_str(), error),
-            Failure::Other(text) => return format!("error: {text}\n"),
-        };
-        let mut text = format!("error: {which}{error}\n");
-        if error.faults().is_empty() {
-            return text;
-        }
-        let colors = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-        let theme = if colors {
-            GraphicalTheme::unicode()
-        } else {
-            GraphicalTheme::unicode_nocolor()
-        };
-        let handler = GraphicalReportHandler::new_themed(theme)
-            .with_context_lines(1)
-            .with_wrap_lines(false);
-        // The sentences stand above; the picture shows the places only.
-        let mut picture = String::new();
-        if handler.render_report(&mut picture, &Places(error)).is_ok() {
-            text += picture.trim_start_matches('\n');
-        }
-        text
-    }
-}
-
-/// The places of an error without its sentences.
-#[derive(Debug)]
-struct Places<'a>(&'a SceneError);
-
-impl std::fmt::Display for Places<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let count = self.0.faults().len();
-        if count == 1 {
-            f.write_str("1 fault in the scene")
-        } else {
-            write!(f, "{count} faults in the scene")
-        }
-    }
-}
-
-impl std::error::Error for Places<'_> {}
-
-impl miette::Diagnostic for Places<'_> {
-    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        self.0.source_code()
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        self.0.labels()
-    }
-}
-
-/// To the standard output; a reader that has gone away is not an error.
-fn say(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-}
-
-fn list() {
+fn list(console: &Console) {
     let width = catalog::SCENES
         .iter()
         .map(|entry| entry.name.len())
@@ -215,28 +178,35 @@ fn list() {
         match catalog::load(entry.name, &[]) {
             Ok(loaded) => {
                 let scene = &loaded.scene;
-                say(&format!(
+                console.say(&format!(
                     "{:<width$}  {}  {}\n",
                     entry.name, scene.title, scene.source
                 ));
             }
-            Err(error) => say(&format!("{:<width$}  {error}\n", entry.name)),
+            Err(error) => console.say(&format!("{:<width$}  {error}\n", entry.name)),
         }
     }
 }
 
-fn show(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
-    say(&catalog::load(scene, sets)?.source.text);
+fn show(scene: &str, sets: &[Override], console: &Console) -> Result<ExitCode, Failure> {
+    console.say(&load(scene, sets)?.source.text);
     Ok(ExitCode::SUCCESS)
 }
 
-fn check(scene: &str, sets: &[Override]) -> Result<ExitCode, Failure> {
-    let loaded = catalog::load(scene, sets)?;
-    if loaded.scene.size().dofs <= LARGEST_BUILT {
-        scenarios::build(&loaded)?;
-    }
-    say(&report::description(&loaded.source.name, &loaded.scene));
+fn check(scene: &str, sets: &[Override], console: &Console) -> Result<ExitCode, Failure> {
+    let loaded = load(scene, sets)?;
+    scenarios::check(&loaded)?;
+    console.say(&report::description(&loaded.source.name, &loaded.scene));
     Ok(ExitCode::SUCCESS)
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Scene(error) => Failure::Scene(error),
+            error => Failure::Other(error.to_string()),
+        }
+    }
 }
 
 fn run(
@@ -245,42 +215,56 @@ fn run(
     sets: &[Override],
     threads: Option<u16>,
     dump: Option<usize>,
-    quiet: bool,
+    voice: &Voice<'_>,
 ) -> Result<ExitCode, Failure> {
-    let loaded = catalog::load(scene, sets)?;
+    let loaded = load(scene, sets)?;
     if let Some(threads) = threads {
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads.into())
             .build_global();
         pool.map_err(|error| Failure::Other(format!("cannot start {threads} threads: {error}")))?;
     }
-    let bar = progress_bar(quiet);
-    let watch = &mut |progress: &Progress| advance(&bar, progress);
+    tell_of_earlier(&folder, voice);
     let stop = interruption()?;
     let mut options = Options::default().with_stop(&stop);
     options.dump = dump;
-    let outcome = scenarios::run_with(&loaded, &folder, &options, watch);
-    bar.finish_and_clear();
-    let summary = outcome.map_err(|error| match error {
-        RunError::Scene(error) => Failure::Scene(error),
-        error => Failure::Other(error.to_string()),
-    })?;
-    if !quiet {
-        say(&format!(
+    let mut news = News::new(voice.console, voice.quiet);
+    let outcome = scenarios::run_with(&loaded, &folder, &options, &mut |progress| {
+        news.tell(progress);
+    });
+    news.end();
+    let summary = outcome?;
+    let console = voice.console;
+    if !voice.quiet {
+        console.say(&format!(
             "{}\nresults in {}\n",
             report::closing_table(&summary),
             folder.display()
         ));
     }
-    match summary.status {
-        Status::Completed => Ok(ExitCode::SUCCESS),
-        Status::Unreliable | Status::Stopped => {
-            eprintln!(
-                "error: {}",
-                summary.reason.as_deref().unwrap_or("no reason given")
-            );
-            Ok(ExitCode::from(STOPPED))
-        }
+    if summary.status != Status::Completed {
+        let reason = summary.reason.as_deref().unwrap_or("no reason given");
+        console.tell(&format!("error: {reason}\n"));
+        return Ok(ExitCode::from(STOPPED));
+    }
+    if let Some(step) = dump.filter(|n| !folder.join(format!("contact_step_{n}.hdf5")).is_file()) {
+        console.tell(&format!(
+            "error: --dump-contact {step}: no contact problem was written; the run has {} steps, and step {step} is beyond them or \
+             nothing touches in it\n",
+            summary.steps
+        ));
+        return Ok(ExitCode::from(STOPPED));
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Says what a run into a folder replaces.
+fn tell_of_earlier(folder: &Path, voice: &Voice<'_>) {
+    if let Some(earlier) = earlier_results(folder).filter(|_| !voice.quiet) {
+        let folder = folder.display();
+        voice
+            .console
+            .tell(&format!("replaces {earlier} in {folder}\n"));
     }
 }
 
@@ -293,38 +277,4 @@ fn interruption() -> Result<Arc<AtomicBool>, Failure> {
             .map_err(|error| Failure::Other(format!("cannot watch for Ctrl-C: {error}")))?;
     }
     Ok(flag)
-}
-
-/// Ticks of the progress bar for the whole run.
-const TICKS: u64 = 10_000;
-
-fn progress_bar(quiet: bool) -> ProgressBar {
-    if quiet || !std::io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::new(TICKS);
-    let style = ProgressStyle::with_template("[{bar:30}] {percent:>3}%  {msg}  {elapsed} + {eta}");
-    bar.set_style(
-        style
-            .unwrap_or_else(|_| ProgressStyle::default_bar())
-            .progress_chars("=> "),
-    );
-    bar
-}
-
-fn advance(bar: &ProgressBar, progress: &Progress) {
-    let done = if progress.end > 0.0 {
-        progress.time / progress.end
-    } else {
-        0.0
-    };
-    bar.set_position((done.clamp(0.0, 1.0) * TICKS as f64) as u64);
-    let rejected = match progress.rejected_steps {
-        0 => String::new(),
-        n => format!(" ({n} rejected)"),
-    };
-    bar.set_message(format!(
-        "t = {:.4e}  step {}{rejected}  iterations {}  contacts {}",
-        progress.time, progress.steps, progress.newton_iterations, progress.contacts
-    ));
 }

@@ -2,7 +2,7 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `summary.json` | how the run ended and what it cost ([`Summary`]); written last, in one move |
+//! | `summary.json` | how the run ended and what it cost ([`Summary`]); `running` from the start, rewritten now and then, each time in one move |
 //! | `history.csv` | one row an accepted step, on disk as soon as the step is accepted ([`Row`]) |
 //! | `fields.pvd`, `fields/*.vtu` | fields for ParaView and pyvista ([`Frame`]), reference positions and displacement |
 //! | `*.svg` | the plots that the scene asks for |
@@ -14,6 +14,7 @@ mod folder;
 mod frame;
 mod history;
 mod labels;
+mod lock;
 mod plot;
 mod results;
 mod summary;
@@ -21,7 +22,7 @@ mod vtu;
 
 use self::csv::HistoryFile;
 pub use crate::energies::{ENERGY_TERMS, Energies, EnergyTerm};
-pub use folder::{Folder, OutputError};
+pub use folder::{Folder, OutputError, earlier_results};
 pub use frame::{Array, Cells, Frame, Values};
 pub use history::{Bonds, Force, History, Row};
 pub use plot::{Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, maps_svg};

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::energies::ENERGY_TERMS;
+use crate::estimate::{Estimate, bytes, seconds};
 use crate::output::{Status, Summary};
 use crate::spec::{Body, Dilatation, Inertia, Interface, Prescribed, Scene, Symmetry};
 
@@ -30,6 +31,14 @@ pub fn description(name: &str, scene: &Scene) -> String {
     let (count, time) = (scene.step_count(), &scene.time);
     let steps = format!("{count} of {} s to {} s, {inertia}", time.dt, time.end);
     rows.push(("steps".into(), steps));
+    let estimate = Estimate::of(scene);
+    let memory = format!("about {} without contacts", bytes(estimate.memory));
+    rows.push(("memory".into(), memory));
+    let time = format!(
+        "roughly {} of CPU, to a factor of ten",
+        seconds(estimate.time)
+    );
+    rows.push(("time".into(), time));
     let mut text = format!("{name}: {}\n{}", scene.title, aligned(&rows));
     for warning in scene.warnings() {
         let _ = writeln!(text, "warning: {warning}");
@@ -93,7 +102,7 @@ pub fn closing_table(summary: &Summary) -> String {
             summary.steps,
             short(summary.time)
         ),
-        Status::Stopped => format!(
+        Status::Running | Status::Stopped => format!(
             "stopped at t = {} after {} steps\n",
             short(summary.time),
             summary.steps

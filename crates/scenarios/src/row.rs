@@ -59,6 +59,7 @@ pub(crate) fn energies(state: &State, totals: &Totals) -> Energies {
         impact_loss: sums.impact,
         integration_error: sums.integration_error(),
     }
+    .without_negative_zeros()
 }
 
 fn probes(scene: &Scene, built: &Built, state: &State) -> Vec<f64> {

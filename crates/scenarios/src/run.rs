@@ -3,13 +3,16 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fe_core::Mesh;
 use nscd::{
     Clock, Counters, Model, NscdError, Observer, Phase, State, StepReport, Stepper, Totals, march,
 };
 use thiserror::Error;
 
+use crate::blame;
 use crate::build::{Built, build};
 use crate::clock::Stopwatch;
+use crate::estimate::{Estimate, free_memory};
 use crate::fields::Fields;
 use crate::output::{EnergySummary, OutputError, Results, Status, Summary};
 use crate::progress::Progress;
@@ -73,12 +76,8 @@ pub fn run_with(
     watch: &mut dyn FnMut(&Progress),
 ) -> Result<Summary, RunError> {
     let stopwatch = Stopwatch::start();
-    let built = build(loaded).map_err(Box::new)?;
-    let refuse = |e: NscdError| Box::new(loaded.refuse(&place(&e), e.to_string()));
-    let mut stepper = Stepper::new(&built.model, Box::new(stopwatch)).map_err(refuse)?;
-    let mut state = stepper
-        .initial_state(built.velocity.clone())
-        .map_err(refuse)?;
+    let built = affordable(loaded)?;
+    let (mut stepper, mut state) = ready(loaded, &built, stopwatch)?;
     let results = Results::create(folder, &loaded.scene)?;
     let mut recorder = Recorder {
         loaded,
@@ -89,9 +88,11 @@ pub fn run_with(
         stop: options.stop,
         interrupted: false,
         failure: None,
+        stopwatch,
+        saved: 0.0,
     };
-    recorder.start(&state)?;
     let mut totals = Totals::default();
+    recorder.start(&stepper, &state, &totals)?;
     let end = march(
         &mut stepper,
         &mut state,
@@ -99,13 +100,15 @@ pub fn run_with(
         &mut totals,
         &mut recorder,
     );
-    if let Some(failure) = recorder.failure {
+    if let Some(failure) = recorder.failure.take() {
+        // The disk may be full; then the summary of a running run has to do.
+        let _ = recorder.save(&stepper, &state, &totals, Some(failure.to_string()));
         return Err(failure.into());
     }
     recorder.frame(&state, stepper.counters().steps as usize, true)?;
     let stopped = end.err().map(|error| match recorder.interrupted {
         true => format!("interrupted at t = {:e} s", state.time),
-        false => error.to_string(),
+        false => blame::error(&error, built.model.solid.mesh()),
     });
     let mut summary = summarise(
         &loaded.scene,
@@ -126,6 +129,42 @@ pub fn run_with(
     Ok(summary)
 }
 
+/// All that a run would refuse before its first step, and nothing computed.
+///
+/// # Errors
+/// [`RunError::Scene`].
+pub fn check(loaded: &LoadedScene) -> Result<(), RunError> {
+    let built = affordable(loaded)?;
+    ready(loaded, &built, Stopwatch::start())?;
+    Ok(())
+}
+
+/// The model, unless it cannot fit the memory.
+fn affordable(loaded: &LoadedScene) -> Result<Built, Box<SceneError>> {
+    let free = free_memory();
+    if let Some(refusal) = free.and_then(|free| Estimate::of(&loaded.scene).refusal(free)) {
+        return Err(Box::new(loaded.refuse("bodies", refusal)));
+    }
+    build(loaded).map_err(Box::new)
+}
+
+/// The stepper and the state that it starts from.
+fn ready<'m>(
+    loaded: &LoadedScene,
+    built: &'m Built,
+    stopwatch: Stopwatch,
+) -> Result<(Stepper<'m>, State), Box<SceneError>> {
+    let mesh = built.model.solid.mesh();
+    let refuse = |e: NscdError| Box::new(loaded.refuse(&place(&e), blame::error(&e, mesh)));
+    let mut stepper = Stepper::new(&built.model, Box::new(stopwatch)).map_err(refuse)?;
+    let velocity = built.velocity.clone();
+    let state = stepper.initial_state(velocity).map_err(refuse)?;
+    Ok((stepper, state))
+}
+
+/// Wall time between two summaries of a running run \[s\]: a kill loses no more, and writing one takes a millisecond.
+const BETWEEN_SUMMARIES: f64 = 2.0;
+
 impl Clock for Stopwatch {
     fn seconds(&self) -> f64 {
         self.wall_s()
@@ -145,13 +184,41 @@ struct Recorder<'a> {
     interrupted: bool,
     /// An output error ends the march; it is kept here to be told as it is.
     failure: Option<OutputError>,
+    stopwatch: Stopwatch,
+    /// When the last summary was written \[s\].
+    saved: f64,
 }
 
 impl Recorder<'_> {
-    fn start(&mut self, state: &State) -> Result<(), OutputError> {
+    fn start(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        totals: &Totals,
+    ) -> Result<(), OutputError> {
+        self.save(stepper, state, totals, None)?;
         let row = first_row(&self.loaded.scene, self.built, state);
         self.results.start(&row);
         self.frame(state, 0, false)
+    }
+
+    /// How far the run is, as its summary until the last one; `stopped` says why it goes no farther.
+    fn save(
+        &mut self,
+        stepper: &Stepper<'_>,
+        state: &State,
+        totals: &Totals,
+        stopped: Option<String>,
+    ) -> Result<(), OutputError> {
+        let running = stopped.is_none();
+        let scene = &self.loaded.scene;
+        let mut summary = summarise(scene, stepper, state, totals, &self.stopwatch, stopped);
+        if running {
+            summary.status = Status::Running;
+            summary.reason = None;
+        }
+        self.saved = self.stopwatch.wall_s();
+        summary.write(self.results.folder())
     }
 
     fn frame(&mut self, state: &State, step: usize, last: bool) -> Result<(), OutputError> {
@@ -179,11 +246,18 @@ impl Recorder<'_> {
             self.results.contact_problem(step, &problem)?;
             self.dump = None;
         }
+        if self.stopwatch.wall_s() - self.saved > BETWEEN_SUMMARIES {
+            self.save(stepper, state, totals, None)?;
+        }
         self.frame(state, step, false)
     }
 }
 
 impl Observer for Recorder<'_> {
+    fn next_time(&self, time: f64) -> Option<f64> {
+        self.results.next_time(time, self.built.span.dt)
+    }
+
     fn accepted(
         &mut self,
         stepper: &Stepper<'_>,
@@ -221,8 +295,9 @@ fn place(error: &NscdError) -> String {
     }
 }
 
-fn rejection(r: &nscd::Rejection) -> String {
-    format!("t = {:e} s, dt = {:e} s: {}", r.time, r.dt, r.reason)
+fn rejection(r: &nscd::Rejection, mesh: &Mesh) -> String {
+    let reason = blame::failure(&r.reason, mesh);
+    format!("t = {:e} s, dt = {:e} s: {reason}", r.time, r.dt)
 }
 
 fn warnings(totals: &Totals, model: &Model, counters: &Counters) -> Vec<String> {
@@ -302,7 +377,7 @@ pub fn summarise(
             .rejections
             .iter()
             .take(MOST_REJECTIONS)
-            .map(rejection)
+            .map(|r| rejection(r, solid.mesh()))
             .collect(),
         warnings,
         energy,

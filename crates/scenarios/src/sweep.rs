@@ -92,6 +92,7 @@ impl Sweep {
         tell: &(dyn Fn(usize, usize, &Outcome) + Sync),
     ) -> Result<Vec<Outcome>, OutputError> {
         let folder = Folder::create(out)?;
+        folder.remove_runs()?;
         let workers = threads.get().min(self.runs.len());
         let (next, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let outcomes = Mutex::new(vec![Outcome::failed(String::new()); self.runs.len()]);

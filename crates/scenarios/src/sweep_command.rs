@@ -8,7 +8,9 @@ use scenarios::catalog;
 use scenarios::spec::Override;
 use scenarios::{Outcome, Sweep, SweepError, Vary};
 
-use crate::{Failure, MOST_THREADS, STOPPED, interruption, say};
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::{MOST_THREADS, STOPPED, Voice, interruption, tell_of_earlier};
 
 /// What to vary.
 #[derive(clap::Args)]
@@ -48,7 +50,7 @@ impl From<SweepError> for Failure {
     }
 }
 
-pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
+pub(crate) fn run(arguments: &Arguments, console: &Console) -> Result<ExitCode, Failure> {
     let sweep = Sweep::plan(&arguments.scene, &arguments.sets, &arguments.varied)?;
     let out = arguments
         .out
@@ -62,18 +64,23 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         Some(threads) => threads,
         None => std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN),
     };
+    let quiet = arguments.quiet;
+    tell_of_earlier(&out, &Voice { console, quiet });
     let stop = interruption()?;
     let tell = |index: usize, ended: usize, outcome: &Outcome| {
         let progress = format!("[{ended}/{}] {}", sweep.runs.len(), sweep.which(index));
         match (outcome.reason(), &outcome.summary) {
             (None, Ok(summary)) if !arguments.quiet => {
-                eprintln!(
-                    "{progress}: completed, {} steps, {:.2} s",
+                console.tell(&format!(
+                    "{progress}: completed, {} steps, {:.2} s\n",
                     summary.steps, summary.wall_s
-                );
+                ));
             }
             (None, _) => {}
-            (Some(reason), _) => eprintln!("error: {progress}: {}: {reason}", outcome.status()),
+            (Some(reason), _) => console.tell(&format!(
+                "error: {progress}: {}: {reason}\n",
+                outcome.status()
+            )),
         }
     };
     let outcomes = sweep
@@ -81,7 +88,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<ExitCode, Failure> {
         .map_err(|error| Failure::Other(error.to_string()))?;
     let completed = outcomes.iter().filter(|o| o.reason().is_none()).count();
     if !arguments.quiet {
-        say(&format!(
+        console.say(&format!(
             "{}\n{completed} of {} runs completed; results in {}\n",
             sweep.table(&outcomes),
             outcomes.len(),

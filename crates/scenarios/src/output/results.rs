@@ -59,6 +59,22 @@ impl Schedule {
         due && !self.drawn[index]
     }
 
+    /// The next time after `time` at which something is due, for steps of `dt`: an interval shorter than a step asks for
+    /// every step, wherever it ends.
+    fn next_time(&self, time: f64, dt: f64) -> Option<f64> {
+        let interval = match self.every {
+            FieldsEvery::Interval(every) if every >= dt => Some(self.next),
+            _ => None,
+        };
+        let plots = self.plots.iter().zip(&self.drawn);
+        let pictures = plots.filter_map(|(plot, drawn)| match plot {
+            Plot::DeformedAt(at) if !drawn => Some(*at),
+            _ => None,
+        });
+        let ahead = pictures.chain(interval).filter(|at| *at > time);
+        ahead.min_by(f64::total_cmp)
+    }
+
     fn advance(&mut self, step: usize, time: f64) {
         self.written = Some(step);
         if let FieldsEvery::Interval(dt) = self.every {
@@ -73,6 +89,19 @@ impl Schedule {
 const SAME_TIME: f64 = 1e-9;
 /// Round-off of a quotient of two times, with room \[-\].
 const QUOTIENT_ROUND_OFF: f64 = 1e-12;
+
+/// Digits of a time in a file name at most; more would be those of a time without an exponent.
+const MOST_DIGITS: usize = 24;
+
+/// A time as a part of a file name.
+fn in_file_name(time: f64) -> String {
+    let plain = time.to_string();
+    if plain.len() <= MOST_DIGITS {
+        plain
+    } else {
+        format!("{time:e}")
+    }
+}
 
 fn reached(time: f64, target: f64, scale: f64) -> bool {
     time >= target - SAME_TIME * scale.abs()
@@ -163,6 +192,12 @@ impl Results {
         pictures || self.schedule.fields_due(step, time, last)
     }
 
+    /// The next time after `time` at which fields or a picture are due \[s\], for nominal steps of `dt` \[s\].
+    #[must_use]
+    pub fn next_time(&self, time: f64, dt: f64) -> Option<f64> {
+        self.schedule.next_time(time, dt)
+    }
+
     /// Writes the fields and pictures that are due at this step.
     ///
     /// # Errors
@@ -181,7 +216,7 @@ impl Results {
             if self.schedule.picture_due(i, frame.time, last) {
                 self.schedule.drawn[i] = true;
                 let name = match self.schedule.plots[i] {
-                    Plot::DeformedAt(at) => format!("deformed_{at}.svg"),
+                    Plot::DeformedAt(at) => format!("deformed_{}.svg", in_file_name(at)),
                     _ => "deformed.svg".to_owned(),
                 };
                 let svg = deformed_svg(&self.title, frame);

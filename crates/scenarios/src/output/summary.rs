@@ -14,6 +14,8 @@ pub enum Status {
     Completed,
     /// The end was reached, but the energies speak against the run; [`Summary::reason`] says how.
     Unreliable,
+    /// The run goes on, or was broken off: [`Summary::time`] and [`Summary::steps`] say how far it had come.
+    Running,
     /// Stopped before the end; [`Summary::reason`] says why. What was computed stays.
     #[default]
     Stopped,
@@ -26,6 +28,7 @@ impl Status {
         match self {
             Status::Completed => "completed",
             Status::Unreliable => "unreliable",
+            Status::Running => "running",
             Status::Stopped => "stopped",
         }
     }

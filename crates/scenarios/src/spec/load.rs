@@ -5,6 +5,7 @@ use ron::extensions::Extensions;
 use super::Scene;
 use super::check::check;
 use super::error::SceneError;
+use super::locate::SpanTree;
 use super::overrides::{Override, replace, resolve, spellings};
 use super::paths::field_paths;
 use super::source::{Fault, Source};
@@ -48,6 +49,8 @@ impl LoadedScene {
 /// [`SceneError::Faults`] with every value that is not allowed, [`SceneError::Set`] for an override that does not
 /// fit.
 pub fn parse(name: &str, text: &str, sets: &[Override]) -> Result<LoadedScene, SceneError> {
+    // Some editors mark UTF-8 by three bytes in front.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut source = Source {
         name: name.to_owned(),
         text: text.to_owned(),
@@ -57,7 +60,8 @@ pub fn parse(name: &str, text: &str, sets: &[Override]) -> Result<LoadedScene, S
     for set in sets {
         (source, scene) = apply(&source, &scene, set)?;
     }
-    let faults = source.duplicates();
+    let mut faults = source.duplicates();
+    faults.extend(components_out_of_plane(&scene, &source));
     checked(scene, source, faults)
 }
 
@@ -89,6 +93,44 @@ fn deserialize(source: &Source) -> Result<Scene, SceneError> {
             faults: vec![source.syntax_fault(&error)],
             source_text: source.clone(),
         })
+}
+
+/// Motions of a plane scene that ask for z beside x or y; those that leave the components to their default ask for all
+/// there are.
+fn components_out_of_plane(scene: &Scene, source: &Source) -> Vec<Fault> {
+    let Ok(tree) = SpanTree::scan(&source.text) else {
+        return Vec::new();
+    };
+    let message =
+        "must be some of the letters xy: a plane scene has no z; without this field it is both";
+    let motions = scene.motions.iter().filter(|(name, given)| {
+        let path = format!("motions.{name}.components");
+        let [x, y, z] = given.mask();
+        scene.is_plane() && z && (x || y) && tree.find(&path).is_some()
+    });
+    motions
+        .map(|(name, _)| source.fault(&format!("motions.{name}.components"), message.into()))
+        .collect()
+}
+
+/// A word for a value that looks like a number with its unit.
+fn unit_advice(value: &str) -> String {
+    let digits = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | ' ');
+    let unit = value.trim_start_matches(digits);
+    let exponent = |c: char| matches!(c, 'e' | 'E');
+    let number = value[..value.len() - unit.len()].trim_end();
+    let rest = unit.trim_start_matches(exponent).trim_start_matches(digits);
+    let (number, unit) = match unit.starts_with(exponent) && rest.len() + 1 < unit.len() {
+        true => (value[..value.len() - rest.len()].trim_end(), rest),
+        false => (number, unit),
+    };
+    if number.parse::<f64>().is_err() || !unit.starts_with(|c: char| c.is_alphabetic() || c == '%')
+    {
+        return String::new();
+    }
+    format!(
+        "; units are not written: give the number alone, in the unit of the field, without `{unit}`"
+    )
 }
 
 /// Applies one override to a text that is a scene already; the scene it gives.
@@ -126,8 +168,9 @@ fn apply(source: &Source, scene: &Scene, set: &Override) -> Result<(Source, Scen
     } else {
         format!("it is {}", place.value)
     };
+    let advice = unit_advice(&set.value);
     Err(refuse(format!(
-        "the value does not fit {path}: {why} ({now} in {}:{}:{})",
+        "the value does not fit {path}: {why} ({now} in {}:{}:{}){advice}",
         place.file, place.line, place.column
     )))
 }

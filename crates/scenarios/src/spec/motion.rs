@@ -4,6 +4,8 @@ use fe_core::Interpolation;
 use ron::value::RawValue;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 
+use super::source::shorten;
+
 /// A value over time: a number, `[(t, value), ..]` (linear), `Linear([..])` or `Smooth([..])`. Constant before
 /// the first and after the last time. Times \[s\]; the unit of the values is the field's.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +55,8 @@ impl<'de> Deserialize<'de> for Table {
         let wrong = |e: ron::error::SpannedError| {
             D::Error::custom(format!(
                 "expected a table: a number, [(t, value), ..], Linear([(t, value), ..]) or \
-                 Smooth([(t, value), ..]); found `{text}` ({})",
+                 Smooth([(t, value), ..]); found `{}` ({})",
+                shorten(text),
                 e.code
             ))
         };

@@ -14,6 +14,20 @@ pub struct Override {
     pub value: String,
 }
 
+impl Override {
+    /// Whether nothing is left of `earlier` when both have full paths: it changes the same value, or one inside.
+    #[must_use]
+    pub fn undoes(&self, earlier: &Override) -> bool {
+        is_within(&earlier.path, &self.path)
+    }
+}
+
+/// Whether a dotted path is `outer` or leads to something inside of it.
+pub(super) fn is_within(path: &str, outer: &str) -> bool {
+    let rest = path.strip_prefix(outer);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
 impl FromStr for Override {
     type Err = String;
 

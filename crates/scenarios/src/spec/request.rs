@@ -24,7 +24,8 @@ pub struct Output {
 pub enum FieldsEvery {
     /// Every so many accepted steps \[-\].
     Steps(usize),
-    /// The first accepted step at or after every multiple of this time \[s\].
+    /// Every multiple of this time \[s\]: exactly where steps end there or were cut, else the first accepted step
+    /// after it.
     Interval(f64),
     /// No fields.
     Never,
@@ -47,7 +48,7 @@ pub enum Plot {
     Energy,
     /// The deformed bodies at the end, coloured by the von Mises stress.
     Deformed,
-    /// The deformed bodies at the first accepted step at or after a time \[s\].
+    /// The deformed bodies at a time \[s\], or at the first accepted step after it where uncut steps pass it.
     DeformedAt(f64),
     /// Force components of an interface or a motion over time.
     Force(String),

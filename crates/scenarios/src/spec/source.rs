@@ -7,7 +7,7 @@ use ron::error::{Error as RonError, Position, SpannedError};
 
 use super::locate::{Node, NodeKind, SpanTree};
 use super::near::near_names;
-use super::overrides::Override;
+use super::overrides::{Override, is_within};
 
 /// Text of a scene after the overrides.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,6 +76,15 @@ impl fmt::Display for Fault {
 }
 
 impl Source {
+    /// The first override that another one after it undoes: of the same value, or of one around it.
+    pub fn undone(&self) -> Option<(&Override, &Override)> {
+        let mut later = self.sets.iter().enumerate();
+        later.find_map(|(i, set)| {
+            let undone = |earlier: &&Override| set.undoes(earlier);
+            Some((self.sets[..i].iter().find(undone)?, set))
+        })
+    }
+
     /// A fault at the value of a path; at the closest outer value when the text leaves the field to its default.
     pub(super) fn fault(&self, path: &str, message: String) -> Fault {
         let tree = SpanTree::scan(&self.text);
@@ -91,12 +100,7 @@ impl Source {
 
     fn fault_at(&self, span: Range<usize>, path: String, value: String, message: String) -> Fault {
         let (line, column) = line_column(&self.text, span.start);
-        let inside = |set: &&Override| {
-            path == set.path
-                || path
-                    .strip_prefix(&set.path)
-                    .is_some_and(|rest| rest.starts_with('.'))
-        };
+        let inside = |set: &&Override| is_within(&path, &set.path);
         let set_by = self.sets.iter().rev().find(inside).cloned();
         Fault {
             file: self.name.clone(),
@@ -241,7 +245,7 @@ const LONGEST_SHOWN: usize = 60;
 /// Stands for the rest of a longer one.
 const DOTS: &str = "...";
 
-fn shorten(text: &str) -> String {
+pub(super) fn shorten(text: &str) -> String {
     let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
     if line.chars().count() <= LONGEST_SHOWN {
         return line;

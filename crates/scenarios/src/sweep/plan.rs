@@ -65,6 +65,16 @@ pub enum SweepError {
         /// Full path of the field.
         path: String,
     },
+    /// A `--vary` of what a `--set` gives, or two `--set` of which one undoes the other.
+    #[error("--{kind} {path} undoes --set {set}; give one of the two")]
+    Undone {
+        /// What undoes: `set` or `vary`.
+        kind: &'static str,
+        /// Full path of its field.
+        path: String,
+        /// The `--set`, with its path in full.
+        set: String,
+    },
     /// The product of the numbers of values is out of hand.
     #[error("these values make {runs} runs; at most {MAX_RUNS}")]
     TooMany {
@@ -128,6 +138,7 @@ impl Sweep {
             })?;
             let full = scene.source.sets.iter().skip(sets.len());
             sweep.paths = full.map(|set| set.path.clone()).collect();
+            refuse_undone(&scene.source.sets, sets.len())?;
             let plain: Vec<String> = values.iter().map(|value| in_file_name(value)).collect();
             let name = pairs(&sweep.names, &plain).join("_");
             let name: String = name.chars().take(LONGEST_NAME).collect();
@@ -137,13 +148,7 @@ impl Sweep {
                 scene,
             });
         }
-        let twice = (1..sweep.paths.len()).find(|&i| sweep.paths[..i].contains(&sweep.paths[i]));
-        match twice {
-            Some(i) => Err(SweepError::Twice {
-                path: sweep.paths.swap_remove(i),
-            }),
-            None => Ok(sweep),
-        }
+        Ok(sweep)
     }
 
     /// The varied fields of a run with their values, `mu=0.2, dt=1e-3`.
@@ -158,6 +163,26 @@ fn pairs(names: &[String], values: &[String]) -> Vec<String> {
     pairs
         .map(|(name, value)| format!("{name}={value}"))
         .collect()
+}
+
+/// Overrides with full paths, the first `fixed` of them of all runs, that others after them undo.
+fn refuse_undone(all: &[Override], fixed: usize) -> Result<(), SweepError> {
+    for (i, later) in all.iter().enumerate() {
+        let mut before = all[..i].iter().enumerate();
+        let Some((k, set)) = before.find(|(_, set)| later.undoes(set)) else {
+            continue;
+        };
+        let path = later.path.clone();
+        return Err(match (k < fixed, i < fixed) {
+            (true, within) => SweepError::Undone {
+                kind: if within { "set" } else { "vary" },
+                path,
+                set: format!("{}={}", set.path, set.value),
+            },
+            (false, _) => SweepError::Twice { path },
+        });
+    }
+    Ok(())
 }
 
 /// The values of the combination of that number, the last field fastest.

@@ -12,6 +12,7 @@ mod pictures;
 mod plane;
 mod quadratic;
 mod refusals;
+mod runs;
 mod scene;
 mod sweep;
 mod verdict;

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use proptest::prelude::*;
 use scenarios::catalog;
 use scenarios::output::{
-    Array, Cells, Energies, EnergySummary, Folder, Force, Frame, Results, Row, Status, Summary,
-    Values, vtu_bytes,
+    Array, Cells, Energies, EnergySummary, Folder, Force, Frame, History, Results, Row, Status,
+    Summary, Values, vtu_bytes,
 };
 use scenarios::spec::Override;
 
@@ -219,6 +219,40 @@ fn fields_come_when_asked_for() {
     assert_eq!(steps("Never"), [0_usize; 0]);
 }
 
+/// A block twisted in steps that have to be cut.
+const TWISTED: &str = r#"(
+    title: "twisted",
+    materials: {"m": (law: NeoHookean(E: 100.0, nu: 0.3), density: 1.0)},
+    bodies: {"block": (mesh: Box(min: (0.0, 0.0, 0.0), max: (1.0, 1.0, 1.0), cells: (2, 2, 2)), material: "m")},
+    motions: {
+        "bottom": (nodes: "block.z_min"),
+        "top": (
+            nodes: "block.z_max",
+            motion: Move(rotation: (point: (0.5, 0.5, 0.0), axis: (0.0, 0.0, 1.0), angle: [(0.0, 0.0), (8.0, 4.0)])),
+        ),
+    },
+    time: (end: 8.0, dt: 1.0, inertia: QuasiStatic),
+    solver: (max_newton: 5),
+    output: (fields_every: Interval(1.0), plots: [DeformedAt(2.6)]),
+)"#;
+
+#[test]
+fn fields_have_the_times_that_were_asked_for_after_cut_steps_too() {
+    let folder = fresh_folder("exact-times");
+    let scene = scenarios::spec::parse("twisted", TWISTED, &[]).unwrap();
+    let summary = scenarios::run(&scene, &folder, &mut |_| ()).unwrap();
+    assert_eq!(summary.status, Status::Completed);
+    assert!(summary.rejected_steps > 2, "nothing was cut");
+    let pvd = fs::read_to_string(folder.join("fields.pvd")).unwrap();
+    let times = pvd.split("timestep=\"").skip(1);
+    let times: Vec<f64> = times
+        .map(|rest| rest.split('"').next().unwrap().parse().unwrap())
+        .collect();
+    assert_eq!(times, (0..=8).map(f64::from).collect::<Vec<_>>());
+    let history = History::read(&folder.join("history.csv")).unwrap();
+    assert!(history.column("t").unwrap().contains(&2.6));
+}
+
 #[test]
 fn wrong_fields_are_refused() {
     let (mut results, folder) = results("wrong-fields", &[]);
@@ -296,11 +330,10 @@ fn summary_has_the_promised_keys() {
     }
     assert_eq!(json["status"], "completed");
     assert_eq!(serde_json::from_str::<Summary>(&text).unwrap(), summary);
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        1,
-        "no part of a file is left"
-    );
+    let path = folder.path().to_owned();
+    drop(folder);
+    let left = fs::read_dir(path).unwrap().count();
+    assert_eq!(left, 1, "no part of a file is left");
 }
 
 #[test]

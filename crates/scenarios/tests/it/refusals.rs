@@ -89,6 +89,27 @@ fn impossible_values_are_refused_with_their_place() {
             &["0 or more"],
         ),
         (
+            "dt: 0.1",
+            "dt: 0.1, min_dt: 1e-20",
+            "1e-20",
+            "time.min_dt",
+            &["round-off of time.end"],
+        ),
+        (
+            "time: (",
+            "solver: (contact_tolerance: 0.999), time: (",
+            "0.999",
+            "solver.contact_tolerance",
+            &["from 1e-15 to 1e-2", "guessed"],
+        ),
+        (
+            "Plane(point: (0, 0, 0), normal: (0, 0, 1))",
+            "Facets(\"block.z_max\")",
+            "Facets",
+            "interfaces.ground.master",
+            &["a side of body `block`", "not supported"],
+        ),
+        (
             "mu: 0.4",
             "mu: NaN",
             "NaN",

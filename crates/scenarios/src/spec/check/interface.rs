@@ -38,6 +38,19 @@ impl Checker<'_> {
                 &master,
                 "must not be the slave itself",
             );
+            let body = |set: &str| set.split_once('.').map(|(body, _)| body.to_owned());
+            let itself =
+                body(facets).filter(|master| Some(master) == body(&interface.slave).as_ref());
+            let message = format!(
+                "is a side of body `{}`, as the slave is: contact of a body with itself is not supported; let the master be \
+                 another body or a rigid shape",
+                itself.as_deref().unwrap_or_default()
+            );
+            self.require(
+                itself.is_none() || *facets == interface.slave,
+                &master,
+                message,
+            );
             let still = interface.motion == Motion::Fixed;
             self.require(
                 still,

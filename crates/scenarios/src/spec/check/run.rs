@@ -6,6 +6,16 @@ use crate::spec::{ContactLevel, FieldsEvery, Inertia, Layout, Plot, Probe};
 /// Most damping of a mass over a step, or of a stiffness in steps \[-\]: forces of 1e-12 of another one keep four
 /// digits.
 const MOST_DAMPING: f64 = 1e12;
+/// Smallest relative error that a solver may be asked for \[-\]: round-off of a few numbers.
+const TIGHTEST: f64 = 1e-15;
+/// Largest relative error of the contact law \[-\]: forces of contacts have two digits then.
+const LOOSEST_CONTACT: f64 = 1e-2;
+/// Largest relative residual \[-\]: what is left is a part of the forces, and the audit of the energies shows it.
+const LOOSEST_NEWTON: f64 = 0.5;
+/// More iterations than this are a slip: they last longer than any step is worth \[-\].
+const MOST_ITERATIONS: usize = 100_000_000;
+/// Smallest step that the time at the end of the run still feels, with room, over that time \[-\].
+const SMALLEST_STEP: f64 = 1e-14;
 
 impl Checker<'_> {
     pub(super) fn time(&mut self) {
@@ -42,6 +52,12 @@ impl Checker<'_> {
                     time.dt
                 ),
             );
+            let least = SMALLEST_STEP * time.end;
+            self.require(
+                !fine || min_dt >= least,
+                "time.min_dt",
+                format!("must be {least:e} [s] or more: a shorter step is lost in the round-off of time.end"),
+            );
         }
         self.damping();
     }
@@ -74,26 +90,28 @@ impl Checker<'_> {
 
     pub(super) fn solver(&mut self) {
         let solver = &self.scene.solver;
-        for (value, name) in [
-            (solver.contact_tolerance, "contact_tolerance"),
-            (solver.newton_tolerance, "newton_tolerance"),
+        for (value, name, most) in [
+            (
+                solver.contact_tolerance,
+                "contact_tolerance",
+                LOOSEST_CONTACT,
+            ),
+            (solver.newton_tolerance, "newton_tolerance", LOOSEST_NEWTON),
         ] {
-            let fine = value.is_none_or(|v| v > 0.0 && v < 1.0);
-            self.require(
-                fine,
-                &format!("solver.{name}"),
-                "must be between 0 and 1 [-]",
+            let message = format!(
+                "must be from {TIGHTEST:e} to {most:e} [-]: below, round-off is larger; above, forces would be guessed and not \
+                 solved for"
             );
+            let fine = value.is_none_or(|v| (TIGHTEST..=most).contains(&v));
+            self.require(fine, &format!("solver.{name}"), message);
         }
         for (value, name) in [
             (solver.max_contact_iterations, "max_contact_iterations"),
             (solver.max_newton, "max_newton"),
         ] {
-            self.require(
-                value.is_none_or(|v| v >= 1),
-                &format!("solver.{name}"),
-                "must be 1 or more [-]",
-            );
+            let message = format!("must be 1 or more and at most {MOST_ITERATIONS} [-]");
+            let fine = value.is_none_or(|v| (1..=MOST_ITERATIONS).contains(&v));
+            self.require(fine, &format!("solver.{name}"), message);
         }
     }
 

@@ -117,6 +117,12 @@ fn nothing_leaves_the_plane() {
             &["x or y"],
         ),
         (
+            "nodes: \"plate.y_max\"",
+            "components: \"xyz\", nodes: \"plate.y_max\"",
+            "motions.top.components",
+            &["letters xy", "no z"],
+        ),
+        (
             "-0.1)], 0)",
             "0)], 0), rotation: (point: (0, 0, 0), axis: (0, 1, 1), angle: 1)",
             "motions.top.motion.rotation.axis",
