@@ -10,6 +10,7 @@
 //! | `contact_step_N.hdf5` | the contact problem of step N as FCLib, with `--dump-contact N` |
 
 mod csv;
+mod earlier;
 mod folder;
 mod frame;
 mod history;
@@ -22,12 +23,13 @@ mod vtu;
 
 use self::csv::HistoryFile;
 pub use crate::energies::{ENERGY_TERMS, Energies, EnergyTerm};
-pub use folder::{Folder, OutputError, earlier_results};
+pub use earlier::{earlier_results, remove_runs};
+pub use folder::{Folder, OutputError};
 pub use frame::{Array, Cells, Frame, Values};
 pub use history::{Bonds, Force, History, Row};
 pub use plot::{Axis, Band, Chart, Curve, MapFrame, Maps, Pen, charts_svg, deformed_svg, maps_svg};
 use plot::{energy_svg, series_svg};
 pub use results::Results;
-pub use summary::{EnergySummary, Status, Summary};
+pub use summary::{EnergySummary, Status, Summary, Units};
 pub use vtu::vtu_bytes;
 use vtu::write_pvd;

@@ -186,7 +186,7 @@ fn energies(summary: &Summary) -> Rows {
     let terms = ENERGY_TERMS.iter();
     let terms = terms.map(|term| joule(term.words, (term.value)(&energy.terms)));
     let mut rows = vec![
-        ("Energy [J]".to_owned(), String::new()),
+        (format!("Energy [{}]", summary.units.energy), String::new()),
         joule("initial", energy.initial),
         joule("final", energy.end),
     ];

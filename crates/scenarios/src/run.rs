@@ -14,10 +14,10 @@ use crate::build::{Built, build};
 use crate::clock::Stopwatch;
 use crate::estimate::{Estimate, free_memory};
 use crate::fields::Fields;
-use crate::output::{EnergySummary, OutputError, Results, Status, Summary};
+use crate::output::{EnergySummary, OutputError, Results, Status, Summary, Units};
 use crate::progress::Progress;
 use crate::row::{energies, first_row, row};
-use crate::spec::{LoadedScene, Scene, SceneError};
+use crate::spec::{Extent, LoadedScene, Scene, SceneError};
 use crate::verdict::{energy_warning, verdict};
 
 /// Why a run could not be made at all. A run that stops before its end is not an error but a [`Summary`] that says
@@ -357,6 +357,7 @@ pub fn summarise(
     Summary {
         status,
         reason,
+        units: Units::of(Extent::of(scene)),
         time: state.time,
         steps: counters.steps as usize,
         rejected_steps: counters.rejected_steps as usize,

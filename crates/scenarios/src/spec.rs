@@ -10,6 +10,7 @@
 mod body;
 mod check;
 mod error;
+mod extent;
 mod interface;
 mod layout;
 mod load;
@@ -27,6 +28,7 @@ mod variants;
 
 pub use body::{Body, Symmetry};
 pub use error::SceneError;
+pub use extent::Extent;
 pub use interface::{Adhesion, Interface, Master, Stiffness};
 pub(crate) use interface::{FLAT, ShapeValue, Side, along_z};
 pub use layout::{Layout, ProbeColumns};

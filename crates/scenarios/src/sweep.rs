@@ -9,9 +9,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::output::{Folder, History, OutputError, Summary};
+use crate::output::{Folder, History, OutputError, Summary, remove_runs};
 use crate::run::{Options, run_with};
-use crate::spec::LoadedScene;
+use crate::spec::{Extent, LoadedScene};
 
 pub use plan::{SweepError, Vary};
 
@@ -37,6 +37,13 @@ pub struct Planned {
     pub values: Vec<String>,
     /// Its scene.
     pub scene: LoadedScene,
+}
+
+impl Planned {
+    /// What its forces are forces of.
+    fn extent(&self) -> Extent {
+        Extent::of(&self.scene.scene)
+    }
 }
 
 /// How one run of a sweep ended.
@@ -92,7 +99,7 @@ impl Sweep {
         tell: &(dyn Fn(usize, usize, &Outcome) + Sync),
     ) -> Result<Vec<Outcome>, OutputError> {
         let folder = Folder::create(out)?;
-        folder.remove_runs()?;
+        remove_runs(&folder)?;
         let workers = threads.get().min(self.runs.len());
         let (next, ended) = (AtomicUsize::new(0), AtomicUsize::new(0));
         let outcomes = Mutex::new(vec![Outcome::failed(String::new()); self.runs.len()]);

@@ -32,7 +32,7 @@ const LEGEND: u32 = 190;
 ///
 /// # Errors
 /// What the drawing library reports.
-pub(super) fn energy_svg(title: &str, history: &History) -> Result<String, String> {
+pub(super) fn energy_svg(title: &str, unit: &str, history: &History) -> Result<String, String> {
     let time = history.column("t").unwrap_or_default();
     let mut total = vec![0.0; time.len()];
     let mut curves = Vec::new();
@@ -55,7 +55,7 @@ pub(super) fn energy_svg(title: &str, history: &History) -> Result<String, Strin
         pen: Pen::Ink,
         ..Curve::new("total energy", &time, &total)
     });
-    over_time(title, Axis::linear("Energy", "J"), curves)
+    over_time(title, Axis::linear("Energy", unit), curves)
 }
 
 /// `dissipation.friction` as `friction dissipation`.

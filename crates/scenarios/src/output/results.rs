@@ -5,11 +5,11 @@ use std::path::Path;
 use contact_bipotential::ContactProblem;
 
 use super::{
-    Folder, Frame, History, HistoryFile, OutputError, Row, Summary, deformed_svg, energy_svg,
-    labels, series_svg, vtu_bytes, write_pvd,
+    Folder, Frame, History, HistoryFile, OutputError, Row, Summary, Units, deformed_svg,
+    energy_svg, labels, series_svg, vtu_bytes, write_pvd,
 };
 use crate::fclib;
-use crate::spec::{FieldsEvery, Layout, Plot, Scene};
+use crate::spec::{Extent, FieldsEvery, Layout, Plot, Scene};
 
 /// Writer of a run's results. Call [`Results::create`] before anything is computed, [`Results::start`] with the
 /// initial state, [`Results::record`] after each accepted step, [`Results::frame`] when [`Results::wants_frame`]
@@ -21,6 +21,7 @@ pub struct Results {
     layout: Layout,
     history: History,
     title: String,
+    extent: Extent,
     schedule: Schedule,
     fields: Vec<(f64, String)>,
 }
@@ -123,6 +124,7 @@ impl Results {
             history: History::new(layout.header()),
             layout,
             title: scene.title.clone(),
+            extent: Extent::of(scene),
             schedule: Schedule {
                 every: scene.output.fields_every,
                 drawn: vec![false; plots.len()],
@@ -260,16 +262,26 @@ impl Results {
         let mut free = 0;
         for plot in &self.schedule.plots {
             match plot {
-                Plot::Energy => self.draw("energy.svg", energy_svg(&self.title, &self.history))?,
-                Plot::Force(name) => self.vector(name, "force", "Force [N]")?,
-                Plot::Moment(name) => self.vector(name, "moment", "Moment [N m]")?,
+                Plot::Energy => {
+                    let unit = Units::of(self.extent).energy;
+                    let svg = energy_svg(&self.title, &unit, &self.history);
+                    self.draw("energy.svg", svg)?;
+                }
+                Plot::Force(name) => {
+                    let axes = self.extent.force_axes();
+                    self.vector(name, "force", "Force [N]", axes)?;
+                }
+                Plot::Moment(name) => {
+                    let axes = self.extent.moment_axes();
+                    self.vector(name, "moment", "Moment [N m]", axes)?;
+                }
                 Plot::Probe(name) => self.probe(name)?,
                 Plot::History(columns) => {
                     free += 1;
                     let names = labels::distinct(columns);
                     let curves: Vec<_> = names.into_iter().zip(columns.iter().cloned()).collect();
-                    let label = labels::common(columns);
-                    let svg = series_svg(&self.title, label, &self.history, &curves);
+                    let label = self.extent.label(labels::common(columns));
+                    let svg = series_svg(&self.title, &label, &self.history, &curves);
                     self.draw(&format!("history_{free}.svg"), svg)?;
                 }
                 Plot::Deformed | Plot::DeformedAt(_) => {}
@@ -278,11 +290,17 @@ impl Results {
         Ok(())
     }
 
-    fn vector(&self, name: &str, kind: &str, label: &str) -> Result<(), OutputError> {
-        let columns =
-            ["x", "y", "z"].map(|axis| (axis.to_owned(), format!("{kind}.{name}.{axis}")));
+    fn vector(
+        &self,
+        name: &str,
+        kind: &str,
+        label: &str,
+        axes: &[&str],
+    ) -> Result<(), OutputError> {
+        let columns = curves(&format!("{kind}.{name}"), axes);
         let title = format!("{}: {name}", self.title);
-        let svg = series_svg(&title, label, &self.history, &columns);
+        let label = self.extent.label(label);
+        let svg = series_svg(&title, &label, &self.history, &columns);
         self.draw(&format!("{kind}_{name}.svg"), svg)
     }
 
@@ -296,14 +314,19 @@ impl Results {
             let column = format!("probe.{name}.{}", quantity.name());
             let columns: Vec<(String, String)> = match quantity.components() {
                 1 => vec![(quantity.name().to_owned(), column)],
-                _ => ["x", "y", "z"]
-                    .map(|axis| (axis.to_owned(), format!("{column}.{axis}")))
-                    .into(),
+                _ => curves(&column, self.extent.vector_axes()),
             };
             let title = format!("{}: {name}", self.title);
-            let svg = series_svg(&title, quantity.label(), &self.history, &columns);
+            let label = self.extent.label(quantity.label());
+            let svg = series_svg(&title, &label, &self.history, &columns);
             self.draw(&format!("probe_{name}_{}.svg", quantity.name()), svg)?;
         }
         Ok(())
     }
+}
+
+/// Name and column of components of a vector.
+fn curves(column: &str, axes: &[&str]) -> Vec<(String, String)> {
+    let curve = |axis: &&str| ((*axis).to_owned(), format!("{column}.{axis}"));
+    axes.iter().map(curve).collect()
 }

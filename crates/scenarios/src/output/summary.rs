@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Folder, OutputError};
 use crate::energies::Energies;
+use crate::spec::Extent;
 
 /// How the run ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,6 +32,40 @@ impl Status {
             Status::Running => "running",
             Status::Stopped => "stopped",
         }
+    }
+}
+
+/// Units of a run whose scene is in SI units.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Units {
+    /// Of forces: `N`, in plane strain `N/m`.
+    pub force: String,
+    /// Of energies, works and dissipations: `J`, in plane strain `J/m`.
+    pub energy: String,
+    /// Of moments: `N m`, in plane strain `N m/m`.
+    pub moment: String,
+}
+
+impl Units {
+    /// Those of a scene of this extent.
+    #[must_use]
+    pub fn of(extent: Extent) -> Units {
+        let unit = |solid: &str| {
+            let label = extent.label(&format!("[{solid}]"));
+            label.trim_matches(['[', ']']).to_owned()
+        };
+        Units {
+            force: unit("N"),
+            energy: unit("J"),
+            moment: unit("N m"),
+        }
+    }
+}
+
+impl Default for Units {
+    fn default() -> Self {
+        Units::of(Extent::default())
     }
 }
 
@@ -80,6 +115,9 @@ pub struct Summary {
     pub warnings: Vec<String>,
     /// Energy audit.
     pub energy: EnergySummary,
+    /// Units of forces, energies and moments.
+    #[serde(default)]
+    pub units: Units,
     /// Deepest penetration at the end of an accepted step, and of slave nodes without contact at the end of the run
     /// \[m\].
     pub max_penetration: f64,

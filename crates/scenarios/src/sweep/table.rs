@@ -1,9 +1,10 @@
 //! The table of a sweep: a row a run.
 
-use super::{Outcome, Sweep};
+use super::{Outcome, Planned, Sweep};
 use crate::energies::ENERGY_TERMS;
-use crate::output::{History, OutputError, Summary};
+use crate::output::{History, OutputError, Summary, Units};
 use crate::report;
+use crate::spec::Extent;
 
 /// Columns of `sweep.csv` after the varied fields that come from the summary; the energies follow.
 const COLUMNS: [&str; 12] = [
@@ -23,10 +24,16 @@ const COLUMNS: [&str; 12] = [
 
 impl Sweep {
     /// `sweep.csv`: the varied fields by their full paths, how each run ended and what it cost, energies at the end,
-    /// then `peak.force.<name>` \[N\] (largest norm) and `peak.force.<name>.t` \[s\] of every force, and the last value
-    /// of every probe. What a run does not have is empty.
+    /// then `peak.force.<name>` (largest norm) and `peak.force.<name>.t` \[s\] of every force and the largest and
+    /// smallest value of each of its components, `peak.force.<name>.y.max` and `.min`, and the last value of every probe.
+    /// Forces are in N, in plane strain N/m; the radial integral of an axisymmetric scene is none and left out. What a run does not have is empty.
     pub(super) fn csv(&self, outcomes: &[Outcome]) -> Result<Vec<u8>, OutputError> {
-        let measures: Vec<Vec<(String, f64)>> = outcomes.iter().map(measures).collect();
+        let measures: Vec<Vec<(String, f64)>> = self
+            .runs
+            .iter()
+            .zip(outcomes)
+            .map(|(planned, outcome)| measures(outcome, planned.extent()))
+            .collect();
         let mut names: Vec<&String> = Vec::new();
         for (name, _) in measures.iter().flatten() {
             if !names.contains(&name) {
@@ -66,12 +73,14 @@ impl Sweep {
         );
         let words = [self.names.len() + 1];
         let mut forces: Vec<String> = Vec::new();
-        for (name, _, _) in outcomes.iter().flat_map(|outcome| peaks(&outcome.history)) {
-            if !forces.contains(&name) {
-                forces.push(name);
+        let extent = self.runs.first().map_or(Extent::Whole, Planned::extent);
+        for peak in (outcomes.iter()).flat_map(|outcome| peaks(&outcome.history, extent)) {
+            if !forces.contains(&peak.name) {
+                forces.push(peak.name);
             }
         }
-        heads.extend(forces.iter().map(|name| format!("peak {name} [N]")));
+        let unit = Units::of(extent).force;
+        heads.extend(forces.iter().map(|name| format!("peak {name} [{unit}]")));
         let mut lines = vec![heads];
         for (i, (planned, outcome)) in self.runs.iter().zip(outcomes).enumerate() {
             let mut line = vec![(i + 1).to_string()];
@@ -88,10 +97,10 @@ impl Sweep {
             line.push(number(|s| s.contacts_max.to_string()));
             line.push(number(|s| format!("{:.2}", s.cpu_s)));
             line.push(number(|s| format!("{:.2}", s.wall_s)));
-            let peaks = peaks(&outcome.history);
+            let peaks = peaks(&outcome.history, planned.extent());
             line.extend(forces.iter().map(|force| {
-                let found = peaks.iter().find(|(name, _, _)| name == force);
-                found.map_or_else(|| "-".to_owned(), |(_, peak, _)| format!("{peak:.5e}"))
+                let found = peaks.iter().find(|peak| peak.name == *force);
+                found.map_or_else(|| "-".to_owned(), |peak| format!("{:.5e}", peak.norm))
             }));
             lines.push(line);
         }
@@ -122,7 +131,7 @@ fn counts(outcome: &Outcome) -> Vec<String> {
 }
 
 /// Energies, peaks of the forces and last values of the probes, by the name of the column.
-fn measures(outcome: &Outcome) -> Vec<(String, f64)> {
+fn measures(outcome: &Outcome, extent: Extent) -> Vec<(String, f64)> {
     let Ok(summary) = &outcome.summary else {
         return Vec::new();
     };
@@ -133,9 +142,14 @@ fn measures(outcome: &Outcome) -> Vec<(String, f64)> {
     ];
     let terms = ENERGY_TERMS.iter();
     measures.extend(terms.map(|term| (term.column.to_owned(), (term.value)(&energy.terms))));
-    for (name, peak, time) in peaks(&outcome.history) {
-        measures.push((format!("peak.force.{name}"), peak));
-        measures.push((format!("peak.force.{name}.t"), time));
+    for peak in peaks(&outcome.history, extent) {
+        let name = format!("peak.force.{}", peak.name);
+        measures.push((name.clone(), peak.norm));
+        measures.push((format!("{name}.t"), peak.time));
+        for (axis, [least, most]) in peak.components {
+            measures.push((format!("{name}.{axis}.max"), most));
+            measures.push((format!("{name}.{axis}.min"), least));
+        }
     }
     let probes = outcome.history.header().iter();
     for name in probes.filter(|name| name.starts_with("probe.")) {
@@ -148,8 +162,19 @@ fn measures(outcome: &Outcome) -> Vec<(String, f64)> {
     measures
 }
 
-/// Name, largest norm \[N\] and its first time \[s\] of every force of a history.
-fn peaks(history: &History) -> Vec<(String, f64, f64)> {
+/// Extremes of a force over a run.
+struct Peak {
+    name: String,
+    /// Largest norm \[N\].
+    norm: f64,
+    /// When it was reached first \[s\].
+    time: f64,
+    /// Smallest and largest value of each component, with sign \[N\].
+    components: Vec<(&'static str, [f64; 2])>,
+}
+
+/// The extremes of every force of a history, of the components that are forces.
+fn peaks(history: &History, extent: Extent) -> Vec<Peak> {
     let name = |column: &String| {
         Some(
             column
@@ -161,16 +186,39 @@ fn peaks(history: &History) -> Vec<(String, f64, f64)> {
     let names = history.header().iter().filter_map(name);
     let peak = |name: String| {
         let times = history.column("t")?;
-        let force = ["x", "y", "z"].map(|axis| history.column(&format!("force.{name}.{axis}")));
-        let [Some(x), Some(y), Some(z)] = force else {
-            return None;
+        let column = |axis: &&'static str| {
+            let values = history.column(&format!("force.{name}.{axis}"))?;
+            Some((*axis, values))
         };
-        let norm = |i: usize| (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
+        let columns: Vec<_> = extent
+            .force_axes()
+            .iter()
+            .map(column)
+            .collect::<Option<_>>()?;
+        let norm = |i: usize| {
+            let squares = columns.iter().map(|(_, values)| values[i] * values[i]);
+            squares.sum::<f64>().sqrt()
+        };
         // The first of equal ones.
         let best = (0..times.len())
             .rev()
             .max_by(|&a, &b| norm(a).total_cmp(&norm(b)))?;
-        Some((name, norm(best), times[best]))
+        let extremes = |values: &[f64]| {
+            let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+            [
+                least,
+                values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            ]
+        };
+        let components = columns
+            .iter()
+            .map(|(axis, values)| (*axis, extremes(values)));
+        Some(Peak {
+            norm: norm(best),
+            time: times[best],
+            components: components.collect(),
+            name,
+        })
     };
     names.filter_map(peak).collect()
 }

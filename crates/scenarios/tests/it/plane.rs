@@ -154,6 +154,18 @@ fn a_plane_run_writes_history_fields_and_pictures() {
     let summary = scenarios::run(&loaded, &folder, &mut |_| ()).unwrap();
     assert_eq!(summary.status, Status::Completed, "{:?}", summary.reason);
     assert_eq!((summary.dofs, summary.elements), (32, 9));
+    // Of 1 m of thickness, in the summary, in the table and on the axes; there is no force along z.
+    assert_eq!(
+        (&*summary.units.force, &*summary.units.energy),
+        ("N/m", "J/m")
+    );
+    assert!(scenarios::report::closing_table(&summary).contains("Energy [J/m]"));
+    let picture = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    assert!(picture("energy.svg").contains("J/m]"));
+    let force = picture("force_ground.svg");
+    assert!(force.contains("N/m]"));
+    let legend = |axis: &str| force.lines().any(|line| line.trim() == axis);
+    assert!(legend("x") && legend("y") && !legend("z"));
     // Half of m v^2 with m = 1000 kg.
     assert!((summary.energy.initial - 125.0).abs() < 1e-9);
     assert!(

@@ -184,17 +184,11 @@ fn a_contact_problem_of_a_step_that_is_not_there_is_an_error() {
 fn a_check_refuses_what_a_run_refuses() {
     let folder = fresh_folder("check-refuses");
     fs::write(folder.join("small.ron"), SMALL).unwrap();
-    // Nothing holds the block, and two bodies are in one place.
-    let free = SMALL.replace("dt: 0.1", "dt: 0.1, inertia: QuasiStatic");
-    fs::write(
-        folder.join("free.ron"),
-        free.replace("block.z_max\"", "block.z_max\", components: \"z\""),
-    )
-    .unwrap();
+    let inside = "upper.mesh.min=(0.2, 0.2, 0.1)";
     let huge = "lower.mesh.cells=(220, 220, 220)";
-    for arguments in [&["free.ron"][..], &["impact", "--set", huge]] {
-        let checked = setae(&[&["check"], arguments].concat(), &folder);
-        let run = setae(&[&["run"], arguments].concat(), &folder);
+    for arguments in [["impact", "--set", inside], ["impact", "--set", huge]] {
+        let checked = setae(&[&["check"], &arguments[..]].concat(), &folder);
+        let run = setae(&[&["run"], &arguments[..]].concat(), &folder);
         assert_eq!(
             (checked.status.code(), run.status.code()),
             (Some(2), Some(2))
@@ -206,8 +200,8 @@ fn a_check_refuses_what_a_run_refuses() {
         error.contains("of memory") && error.contains("take fewer cells"),
         "{error}"
     );
-    let error = text(&setae(&["check", "free.ron"], &folder).stderr);
-    assert!(error.contains("is of body `block`"), "{error}");
+    let error = text(&setae(&["check", "impact", "--set", inside], &folder).stderr);
+    assert!(error.contains("is of body `upper`"), "{error}");
     let described = text(&setae(&["check", "small.ron"], &folder).stdout);
     assert!(
         described.contains("memory") && described.contains("of CPU"),
@@ -237,7 +231,7 @@ fn names_that_no_file_can_have_are_refused() {
 fn a_probe_far_from_its_body_is_refused() {
     let probe = |node: &str| {
         let output = format!(
-            "output: (probes: {{\"p\": (body: \"block\", node: {node}, quantities: [Gap])}}),\n    time:"
+            "output: (probes: {{\"p\": (body: \"block\", node: {node}, quantities: [gap])}}),\n    time:"
         );
         let scene = parse("probe.ron", &SMALL.replace("time:", &output), &[]).unwrap();
         scenarios::build(&scene).map(|built| built.probes)

@@ -140,6 +140,15 @@ fn same_as_the_files(row: &std::collections::BTreeMap<String, String>, run: &Pat
     assert!(peak > 0.0 && number(row, "peak.force.blocks") == peak);
     let first = history.iter().find(|line| norm(line) == peak).unwrap();
     assert_eq!(number(row, "peak.force.blocks.t"), number(first, "t"));
+    let z = || history.iter().map(|line| number(line, "force.blocks.z"));
+    assert_eq!(
+        number(row, "peak.force.blocks.z.max"),
+        z().fold(f64::MIN, f64::max)
+    );
+    assert_eq!(
+        number(row, "peak.force.blocks.z.min"),
+        z().fold(f64::MAX, f64::min)
+    );
     let last = history.last().unwrap();
     assert_eq!(
         row["probe.corner.velocity.z"],

@@ -1,7 +1,7 @@
 //! Time, solver and output of a scene.
 
 use super::{Checker, MAX_STEPS, unknown};
-use crate::spec::{ContactLevel, FieldsEvery, Inertia, Layout, Plot, Probe};
+use crate::spec::{ContactLevel, Extent, FieldsEvery, Inertia, Layout, Plot, Probe};
 
 /// Most damping of a mass over a step, or of a stiffness in steps \[-\]: forces of 1e-12 of another one keep four
 /// digits.
@@ -141,6 +141,10 @@ impl Checker<'_> {
                 self.require(*t >= 0.0 && t.is_finite(), path, "must be 0 s or more");
             }
             Plot::Force(name) | Plot::Moment(name) => {
+                let moment = matches!(plot, Plot::Moment(_));
+                let none = moment && Extent::of(scene).moment_axes().is_empty();
+                let message = "is impossible: forces on a whole ring have no moment";
+                self.require(!none, path, message);
                 let names = scene.interfaces.keys().chain(scene.motions.keys());
                 let found = names.clone().any(|n| n == name);
                 let names = names.map(String::as_str);
