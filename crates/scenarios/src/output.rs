@@ -2,7 +2,7 @@
 //!
 //! | file | content |
 //! |---|---|
-//! | `summary.json` | how the run ended and what it cost ([`Summary`]); `running` from the start, rewritten now and then, each time in one move |
+//! | `summary.json` | how the run ended and what it cost ([`Summary`]); `running` until then, always whole |
 //! | `history.csv` | one row an accepted step, on disk as soon as the step is accepted ([`Row`]) |
 //! | `fields.pvd`, `fields/*.vtu` | fields for ParaView and pyvista ([`Frame`]), reference positions and displacement |
 //! | `*.svg` | the plots that the scene asks for |

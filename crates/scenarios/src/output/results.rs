@@ -60,8 +60,8 @@ impl Schedule {
         due && !self.drawn[index]
     }
 
-    /// The next time after `time` at which something is due, for steps of `dt`: an interval shorter than a step asks for
-    /// every step, wherever it ends.
+    /// The next time after `time` at which something is due, for steps of `dt`: an interval shorter than a step asks
+    /// for every step, wherever it ends.
     fn next_time(&self, time: f64, dt: f64) -> Option<f64> {
         let interval = match self.every {
             FieldsEvery::Interval(every) if every >= dt => Some(self.next),

@@ -22,7 +22,8 @@ pub(super) struct Issue {
 const MAX_NODES: usize = 20_000_000;
 /// More steps than this are a slip in `dt` or `end`.
 const MAX_STEPS: f64 = 1e9;
-/// Longest name of a part \[letters\]: pictures are called by it, with words around it, and file systems take 255 bytes.
+/// Longest name of a part \[letters\]: pictures are called by it, with words around it, and file systems take 255
+/// bytes.
 const LONGEST_NAME: usize = 100;
 /// A larger ratio of the sizes of two cells, or its inverse, is a slip, and cells vanish in round-off.
 const MAX_GRADING: f64 = 1e9;

@@ -24,9 +24,10 @@ const COLUMNS: [&str; 12] = [
 
 impl Sweep {
     /// `sweep.csv`: the varied fields by their full paths, how each run ended and what it cost, energies at the end,
-    /// then `peak.force.<name>` (largest norm) and `peak.force.<name>.t` \[s\] of every force and the largest and
-    /// smallest value of each of its components, `peak.force.<name>.y.max` and `.min`, and the last value of every probe.
-    /// Forces are in N, in plane strain N/m; the radial integral of an axisymmetric scene is none and left out. What a run does not have is empty.
+    /// then `peak.force.<name>` (largest norm) and `peak.force.<name>.t` \[s\] of every force, the largest and the
+    /// smallest value of each of its components, `peak.force.<name>.y.max` and `.min`, and the last value of every
+    /// probe. Forces are in N, in plane strain in N/m; the radial integral of an axisymmetric scene is none and left
+    /// out. What a run does not have is empty.
     pub(super) fn csv(&self, outcomes: &[Outcome]) -> Result<Vec<u8>, OutputError> {
         let measures: Vec<Vec<(String, f64)>> = self
             .runs
