@@ -2,6 +2,7 @@
 //! with a reason.
 
 mod audit;
+mod contacts;
 mod draw;
 mod geometry;
 mod report;
@@ -42,6 +43,9 @@ pub(crate) struct Options {
     /// Only the run with this number
     #[arg(long)]
     index: Option<usize>,
+    /// Instead of runs so many random contact problems, every success checked in twice the digits
+    #[arg(long)]
+    contacts: Option<u64>,
     /// Folder for the scenes of all runs and a table of their ends
     #[arg(long)]
     write: Option<PathBuf>,
@@ -56,6 +60,7 @@ impl Options {
             seed: SEED,
             only: None,
             index: None,
+            contacts: None,
             write: None,
         }
     }
@@ -73,6 +78,9 @@ pub(crate) struct Made {
 /// # Errors
 /// Runs that ended wrong, or that hang.
 pub(crate) fn run(options: &Options) -> Outcome {
+    if let Some(count) = options.contacts {
+        return contacts::run(count, options.seed);
+    }
     let wanted = |index: &usize| match options.index {
         Some(only) => *index == only,
         None => {

@@ -2,6 +2,12 @@
 //!
 //! For tests and benches of this crate and of others that bring a solver or a `W` of their own.
 
+mod exact;
+mod random;
+
+pub use exact::exact_error;
+pub use random::{Drawn, drawn_problem};
+
 use faer::Mat;
 
 use crate::cone::Cone;

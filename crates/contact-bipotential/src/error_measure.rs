@@ -1,24 +1,43 @@
 //! The error of a set of reactions, recomputed from nothing but the problem and `r`.
 
-use crate::cone::{Cone, bipotential_gap};
-use crate::law::{ContactDiagnostic, diagnose, natural_map};
+mod sums;
+
+use crate::cone::Cone;
+use crate::extended;
+use crate::law::{ContactDiagnostic, diagnose, violation};
 use crate::local::{Vector, from_spatial, load, spatial};
 use crate::problem::ContactProblem;
 use crate::rcc::{BondPoint, BondStep};
 
+use sums::{EnergySums, PlainSums};
+
 /// How far reactions are from solving a problem.
+///
+/// All but the first are sums over the contacts, with `r`, `u` and `q` of each brought to the square root of an energy
+/// by its compliance `w_c` (mean diagonal of `W_cc`), `sqrt(w_c) r` and `u / sqrt(w_c)`. They do not depend on units,
+/// and `r` stands in no denominator: reactions that run away make none of them small. Where the rounding of `W r` would
+/// be seen in them, `u` is recomputed in twice the digits; for an operator, whose entries nobody knows, that rounding
+/// is added.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Errors {
     /// `|F| / max(|q|, |r|, |u|)`, `F = r - Proj(r - (u + mu |u_t| n))` \[-\]: the measure of Siconos. It mixes units.
+    /// Of a contact with `mu > 1` it takes `F / mu`, for `F` holds `mu` times the rounding of `|u_t|`.
     pub siconos: f64,
-    /// `|F| / max(|q|, |u|)` with `r`, `u` and `q` of each contact brought to the square root of an energy by its
-    /// compliance `w_c` (mean diagonal of `W_cc`): `sqrt(w_c) r`, `u / sqrt(w_c)` \[-\]. It does not depend on units,
-    /// and reactions that run away in a problem without solution do not make it small. Only where `F` is as small as
-    /// the rounding of `W r` makes it anyway does `|r|` count in the denominator.
+    /// `|F| / max(|q|, |u|)` in the energy norm \[-\]. Of a contact with `mu > 1` it takes the four parts below,
+    /// together, instead of `F`, which falls as `1 / mu` there.
     pub scale_free: f64,
-    /// Sum of bi-potential gaps over `|u| |r|` in the same energy norm \[-\].
+    /// Sum of bi-potential gaps over `|u| |r|` in the energy norm \[-\].
     pub gap: f64,
+    /// Where `u_n < 0`: `|u_n| / max(|q|, |u|)` \[-\].
+    pub penetration: f64,
+    /// How far `r` is outside of the cone, by a pull or by friction above its limit, over `max(|q|, |u|)` \[-\].
+    pub cone: f64,
+    /// `min(r_n, u_n)` where both are positive, over `max(|q|, |u|)` \[-\].
+    pub complementarity: f64,
+    /// How far friction is from its value against the slip, `r_t - Proj(r_t - u_t)` on the disc of radius `mu r_n`,
+    /// over `max(|q|, |u|)` \[-\].
+    pub slip: f64,
 }
 
 impl Errors {
@@ -27,12 +46,28 @@ impl Errors {
         siconos: f64::MAX,
         scale_free: f64::MAX,
         gap: f64::MAX,
+        penetration: f64::MAX,
+        cone: f64::MAX,
+        complementarity: f64::MAX,
+        slip: f64::MAX,
     };
 
-    /// The larger of the two errors that a solution is judged by \[-\].
+    /// The error that a solution is judged by \[-\]: the largest of all but the gap.
     #[must_use]
     pub fn worst(&self) -> f64 {
-        self.siconos.max(self.scale_free)
+        let parts = self.parts().into_iter().map(|(_, value)| value);
+        parts.fold(self.siconos.max(self.scale_free), f64::max)
+    }
+
+    /// The parts of the law with their names \[-\].
+    #[must_use]
+    pub fn parts(&self) -> [(&'static str, f64); 4] {
+        [
+            ("penetration", self.penetration),
+            ("cone slack", self.cone),
+            ("complementarity", self.complementarity),
+            ("slip misalignment", self.slip),
+        ]
     }
 }
 
@@ -95,8 +130,9 @@ impl<const D: usize> Dry<D> {
     }
 }
 
-/// How far one contact is from the law: `|r - Proj_K(r - rho (u + mu |u_t| n))|`, in the unit of `r`, zero exactly
-/// where the law holds.
+/// How far one contact is from the law, in the unit of `r`, zero exactly where the law holds:
+/// `|r - Proj_K(r - rho (u + mu |u_t| n))|`. Beyond `mu = 1` this would fade where a contact penetrates, and the length
+/// of penetration, cone slack, complementarity and slip misalignment stands for it, velocities times `rho`.
 ///
 /// `u` and `r` are slices of `cone.dim()` entries, normal last; `rho > 0` is a stiffness, unit of `r` over unit of `u`.
 /// With a `bond`, `u` is the end position of its step, and the law governs what the bond force leaves of `r`; `mu` is
@@ -119,7 +155,7 @@ pub fn law_residual(
     ) -> f64 {
         let u = load::<D>(u, 0);
         let dry = Dry::new(bond, mu, &load(r, 0), &u);
-        natural_map(dry.mu, rho, &u, &dry.r).norm()
+        violation(dry.mu, &(u * rho), &dry.r)
     }
     match cone {
         Cone::Frictionless => with::<1>(bond, mu, rho, u, r),
@@ -170,10 +206,44 @@ impl<'a> ErrorMeasure<'a> {
         &self.roots
     }
 
-    /// Fills `u = W r + q` and measures the errors.
+    /// Fills `u = W r + q` and measures the errors, in twice the digits where rounding would be seen in them.
     pub fn evaluate(&self, r: &[f64], u: &mut [f64]) -> Errors {
         self.velocity(r, u);
-        self.errors(r, u)
+        let (errors, rounding) = self.errors_and_rounding(r, u);
+        if rounding < ROUNDING_SEEN || errors.worst() > ROUNDING_RULES * rounding {
+            return errors;
+        }
+        if extended::velocity(&self.problem.w, r, &self.problem.q, u) {
+            return self.errors(r, u);
+        }
+        Errors {
+            scale_free: errors.scale_free + rounding,
+            ..errors
+        }
+    }
+
+    /// The errors by which success is claimed: as [`Self::evaluate`], but where they are within the `tolerance`, and
+    /// the rounding of `W r` by the entries of `W` may be a part of it, `u` is always summed in twice the digits.
+    pub(crate) fn certify(&self, r: &[f64], u: &mut [f64], tolerance: f64) -> Errors {
+        let errors = self.evaluate(r, u);
+        if errors.worst() > tolerance {
+            return errors;
+        }
+        let mut sums = vec![0.0; u.len()];
+        if !extended::absolute(&self.problem.w, r, &self.problem.q, &mut sums) {
+            return errors;
+        }
+        let d = self.problem.cone.dim();
+        let largest = |v: &[f64]| {
+            let scaled = v.iter().enumerate().map(|(i, v)| v / self.roots[i / d]);
+            scaled.fold(0.0, |m, v| f64::max(m, v.abs()))
+        };
+        let (all, moved) = (largest(&sums), largest(u).max(largest(&self.problem.q)));
+        let seen = ROUNDINGS * f64::EPSILON * all > CLAIMED * tolerance * moved;
+        if seen && extended::velocity(&self.problem.w, r, &self.problem.q, u) {
+            return self.errors(r, u);
+        }
+        errors
     }
 
     /// `u = W r + q`.
@@ -187,6 +257,11 @@ impl<'a> ErrorMeasure<'a> {
     /// The errors of `r` with a `u` known to belong to it.
     #[must_use]
     pub fn errors(&self, r: &[f64], u: &[f64]) -> Errors {
+        self.errors_and_rounding(r, u).0
+    }
+
+    /// The errors, and what the rounding of `W r` may have added to them \[-\].
+    fn errors_and_rounding(&self, r: &[f64], u: &[f64]) -> (Errors, f64) {
         match self.problem.cone {
             Cone::Frictionless => self.errors_with::<1>(r, u),
             Cone::Planar => self.errors_with::<2>(r, u),
@@ -194,39 +269,36 @@ impl<'a> ErrorMeasure<'a> {
         }
     }
 
-    fn errors_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Errors {
+    fn errors_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> (Errors, f64) {
         // Brought to order one first: squares of any admissible number then neither overflow nor all vanish.
-        let (plain, energy) = self.magnitudes::<D>(r, u);
-        if !plain.is_finite() || !energy.is_finite() {
-            return Errors::WORST;
-        }
+        let Some((plain, energy)) = self.magnitudes::<D>(r, u) else {
+            return (Errors::WORST, 0.0);
+        };
         let (k, e) = (reciprocal(plain), reciprocal(energy));
-        let mut raw = Sums::default();
-        let mut free = Sums::default();
+        let (mut raw, mut free) = (PlainSums::default(), EnergySums::default());
         for c in 0..self.problem.contacts() {
             let root = self.roots[c];
             let (uc, qc) = (load::<D>(u, c), load::<D>(&self.problem.q, c));
             let rc = load::<D>(r, c);
             let dry = self.dry(c, &rc, &uc);
-            for (sums, up, down) in [(&mut raw, k, k), (&mut free, e * root, e / root)] {
-                sums.add(dry.mu, &(dry.r * up), &(uc * down), &(qc * down));
-                sums.add_whole(&(rc * up));
-            }
+            raw.add(dry.mu, &(dry.r * k), &(uc * k), &(qc * k));
+            raw.add_whole(&(rc * k));
+            let (up, down) = (e * root, e / root);
+            free.add(dry.mu, &(dry.r * up), &(uc * down), &(qc * down));
+            free.add_whole(&(rc * up));
         }
-        let errors = Errors {
-            siconos: raw.error(),
-            scale_free: free.strict_error(),
-            gap: free.gap(),
-        };
+        let errors = free.errors(raw.error());
         if errors.worst().is_finite() {
-            errors
+            (errors, free.rounding())
         } else {
-            Errors::WORST
+            (Errors::WORST, 0.0)
         }
     }
 
-    fn magnitudes<const D: usize>(&self, r: &[f64], u: &[f64]) -> (f64, f64) {
-        let (mut plain, mut energy, mut sum) = (0.0_f64, 0.0_f64, 0.0);
+    /// Largest entry of `r`, `u` and `q`, and of `u` and `q` alone (of `r` if these vanish) in the energy norm; `None`
+    /// where something is not finite.
+    fn magnitudes<const D: usize>(&self, r: &[f64], u: &[f64]) -> Option<(f64, f64)> {
+        let (mut plain, mut pushed, mut moved, mut sum) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0);
         for (c, root) in self.roots.iter().enumerate() {
             let (rc, uc, qc) = (
                 load::<D>(r, c),
@@ -235,13 +307,15 @@ impl<'a> ErrorMeasure<'a> {
             );
             let (mr, mv) = (rc.amax(), uc.amax().max(qc.amax()));
             plain = plain.max(mr).max(mv);
-            energy = energy.max(mr * root).max(mv / root);
+            pushed = pushed.max(mr * root);
+            moved = moved.max(mv / root);
             // `max` forgets NaN, a sum does not.
             for i in 0..D {
                 sum += rc[i] * 0.0 + uc[i] * 0.0;
             }
         }
-        (plain + sum, energy + sum)
+        let finite = (plain + pushed + moved + sum).is_finite();
+        finite.then_some((plain, if moved > 0.0 { moved } else { pushed }))
     }
 
     /// How each contact stands with the law.
@@ -255,26 +329,21 @@ impl<'a> ErrorMeasure<'a> {
     }
 
     fn diagnose_with<const D: usize>(&self, r: &[f64], u: &[f64]) -> Vec<ContactDiagnostic> {
-        let (_, energy) = self.magnitudes::<D>(r, u);
+        let (_, energy) = self.magnitudes::<D>(r, u).unwrap_or_default();
         let e = reciprocal(energy);
-        let mut total = 0.0;
-        for c in 0..self.scales.len() {
-            let root = self.roots[c];
-            let (rc, uc, qc) = (
-                load::<D>(r, c),
-                load::<D>(u, c),
-                load::<D>(&self.problem.q, c),
-            );
-            let size = [rc * (e * root), uc * (e / root), qc * (e / root)];
-            total += size.iter().map(|v| v.dot(v)).fold(0.0, f64::max);
+        let (mut moved, mut free) = (0.0, 0.0);
+        for (c, root) in self.roots.iter().enumerate() {
+            let (uc, qc) = (load::<D>(u, c), load::<D>(&self.problem.q, c));
+            moved += (uc * (e / root)).norm_squared();
+            free += (qc * (e / root)).norm_squared();
         }
-        let total = if total > 0.0 { total.sqrt() } else { 1.0 };
+        let size = f64::max(moved, free);
+        let size = if size > 0.0 { size.sqrt() } else { 1.0 };
         let one = |c: usize| {
             let (root, uc) = (self.roots[c], load::<D>(u, c));
             let Dry { mu, r: rc, .. } = self.dry(c, &load::<D>(r, c), &uc);
-            let f = natural_map(mu, 1.0, &(uc * (e / root)), &(rc * (e * root)));
             ContactDiagnostic {
-                error: f.norm() / total,
+                error: violation(mu, &(uc * (e / root)), &(rc * (e * root))) / size,
                 ..diagnose(mu, 1.0 / self.scales[c], &uc, &rc)
             }
         };
@@ -292,59 +361,14 @@ pub fn errors(problem: &ContactProblem, r: &[f64]) -> Errors {
     ErrorMeasure::new(problem).evaluate(r, &mut u)
 }
 
-/// Share of `|r|` that the rounding of `W r` may leave in `F` \[-\]: some fifty roundings.
-const ROUNDING: f64 = 1e-14;
-/// `|r|` over `|q|` in the energy norm beyond which reactions are not large but running away \[-\].
-const RUNAWAY: f64 = 1e10;
-
-#[derive(Default)]
-struct Sums {
-    f: f64,
-    r: f64,
-    u: f64,
-    q: f64,
-    gap: f64,
-}
-
-impl Sums {
-    #[inline(always)]
-    fn add<const D: usize>(&mut self, mu: f64, r: &Vector<D>, u: &Vector<D>, q: &Vector<D>) {
-        let f = natural_map(mu, 1.0, u, r);
-        self.f += f.dot(&f);
-        self.u += u.dot(u);
-        self.q += q.dot(q);
-        self.gap += bipotential_gap(mu, u, r).abs();
-    }
-
-    /// The whole reaction, bond and all: what `F` was rounded with.
-    #[inline(always)]
-    fn add_whole<const D: usize>(&mut self, r: &Vector<D>) {
-        self.r += r.dot(r);
-    }
-
-    fn error(&self) -> f64 {
-        let size = self.q.max(self.r).max(self.u);
-        if size > 0.0 {
-            (self.f / size).sqrt()
-        } else {
-            0.0
-        }
-    }
-
-    fn strict_error(&self) -> f64 {
-        let size = self.q.max(self.u);
-        let rounding = self.f <= ROUNDING * ROUNDING * self.r && self.r <= RUNAWAY * RUNAWAY * size;
-        if rounding || size == 0.0 {
-            return self.error();
-        }
-        (self.f / size).sqrt()
-    }
-
-    fn gap(&self) -> f64 {
-        let size = (self.u * self.r).sqrt();
-        if size > 0.0 { self.gap / size } else { 0.0 }
-    }
-}
+/// Roundings of the largest sum `|W| |r| + |q|` that one entry of `u` has, in a long sum.
+const ROUNDINGS: f64 = 16.0;
+/// Part of the tolerance that they may take without being looked at \[-\].
+const CLAIMED: f64 = 0.1;
+/// Rounding over `max(|q|, |u|)` from which on it is looked at \[-\].
+const ROUNDING_SEEN: f64 = 1e-13;
+/// Error over the rounding in it beyond which the error is known well enough \[-\].
+const ROUNDING_RULES: f64 = 100.0;
 
 /// Exponents of two between which a power of two and its inverse are normal numbers, with some room for products.
 const LARGEST_EXPONENT: f64 = 1000.0;

@@ -31,6 +31,81 @@ pub fn natural_map<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<
     r - cone::project(mu, &predictor(mu, rho, u, r))
 }
 
+/// By how much velocity and reaction of one contact, in one unit, break the law, part by part. No parameter scales a
+/// part away, as a large `mu` does with the [`natural_map`]; all vanish exactly where the law holds.
+///
+/// Together they are the residual of Alart and Curnier \[Alart1991\], `min(r_n, u_n)` and
+/// `r_t - Proj(r_t - u_t)` on the disc of radius `mu r_n`.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Breach {
+    /// `max(0, -u_n)`.
+    pub(crate) penetration: f64,
+    /// Distance of `r` from the cone along its axes: a pull, and friction above its limit.
+    pub(crate) cone: f64,
+    /// `min(r_n, u_n)` where both are positive.
+    pub(crate) complementarity: f64,
+    /// `|r_t - Proj(r_t - u_t)|` with `r_t` brought into the disc first.
+    pub(crate) slip: f64,
+}
+
+impl Breach {
+    #[inline]
+    pub(crate) fn of<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> Self {
+        let (un, rn) = (u[D - 1], r[D - 1]);
+        let pressed = rn.max(0.0);
+        let radius = mu * pressed;
+        let friction = tangential_norm(r);
+        let excess = (friction - radius).max(0.0);
+        let pull = rn - pressed;
+        Breach {
+            penetration: (-un).max(0.0),
+            cone: (pull * pull + excess * excess).sqrt(),
+            complementarity: pressed.min(un).max(0.0),
+            slip: slip_breach(radius, friction, u, r),
+        }
+    }
+
+    /// Sum of the squares of all parts.
+    pub(crate) fn square(&self) -> f64 {
+        let parts = [self.penetration, self.cone, self.complementarity, self.slip];
+        parts.iter().map(|x| x * x).sum()
+    }
+}
+
+/// Distance that the friction force, brought into the disc, still moves against the slip within the disc.
+#[inline]
+fn slip_breach<const D: usize>(radius: f64, friction: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
+    let shrink = |length: f64| {
+        if length > radius {
+            radius / length
+        } else {
+            1.0
+        }
+    };
+    let (mut now, mut next) = (*r * shrink(friction), Vector::<D>::zeros());
+    now[D - 1] = 0.0;
+    for i in 0..D - 1 {
+        next[i] = now[i] - u[i];
+    }
+    let shrunk = next * shrink(tangential_norm(&next));
+    tangential_norm(&(now - shrunk))
+}
+
+/// Largest `mu` \[-\] up to which the natural map tells how far a contact is from the law. Beyond, it falls as `1 / mu`
+/// where a contact penetrates and holds `mu` times the rounding of `|u_t|` where one sticks.
+pub(crate) const NATURAL: f64 = 1.0;
+
+/// How far one contact is from the law, velocity and reaction in one unit: `|F|` of the [`natural_map`] with `rho = 1`,
+/// beyond `mu = 1` the [`Breach`].
+#[inline]
+pub(crate) fn violation<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
+    if mu <= NATURAL {
+        natural_map(mu, 1.0, u, r).norm()
+    } else {
+        Breach::of(mu, u, r).square().sqrt()
+    }
+}
+
 /// The status that the point `r - rho (u + mu |u_t| n)` predicts.
 #[inline]
 pub(crate) fn status<const D: usize>(mu: f64, rho: f64, u: &Vector<D>, r: &Vector<D>) -> Status {

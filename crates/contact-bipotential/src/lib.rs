@@ -21,6 +21,7 @@ pub mod conformance;
 mod delassus;
 mod error;
 mod error_measure;
+mod extended;
 pub mod flat;
 #[cfg(feature = "geometry")]
 mod geometry;

@@ -121,7 +121,7 @@ impl ContactSolver {
         counters.bonded_solves += u64::from(!bonds.is_empty());
         counters.contact_iterations += outcome.iterations as u64;
         counters.contacts_max = counters.contacts_max.max(map.len() as u64);
-        let error = outcome.error.max(outcome.error_scale_free);
+        let error = outcome.errors.worst();
         // Where round-off leaves a little more, the exact gaps of the next iterate decide.
         if error > tolerance.max(model.settings.stagnant_contact_error()) {
             return Err(unsolved(model, map, &outcome, !bonds.is_empty()));
@@ -170,7 +170,7 @@ fn unsolved(model: &Model, map: &ContactMap, outcome: &Outcome, bonded: bool) ->
     let worst = map.contacts.get(worst.map_or(0, |(k, _)| k));
     StepFailure::Contact {
         contacts: map.len(),
-        error: outcome.error_scale_free,
+        error: outcome.errors.worst(),
         method: outcome.method,
         bonded,
         contact: worst.map(|c| model.place(c)),

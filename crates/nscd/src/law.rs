@@ -10,8 +10,8 @@ use crate::newton_iterate::NewtonIterate;
 /// Error of the contact law at an iterate.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LawError {
-    /// Largest `|r - Proj_K(r - rho (x + mu |x_t| n))|`, `rho = 1/trace W_cc`, relative to the largest contact force or
-    /// to the round-off of this contact that stands for it \[-\].
+    /// Largest [`law_residual`] with `rho = 1/trace W_cc`, relative to the largest contact force or to the round-off of
+    /// this contact that stands for it \[-\]: a penetration counts whatever the friction coefficient is.
     pub(crate) largest: f64,
     /// Index of that contact in the map.
     pub(crate) worst: usize,

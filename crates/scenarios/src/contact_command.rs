@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     /// Problem files (Siconos .dat, FCLib .hdf5), or folders of such.
     #[arg(value_name = "PATH", required = true)]
     paths: Vec<PathBuf>,
-    /// Largest error of a solution, by the measure of Siconos and by the scale-free one.
+    /// Largest error of a solution: by the measure of Siconos, the scale-free one, and each part of the law.
     #[arg(long, value_name = "TOL", default_value = "1e-8", value_parser = tolerance)]
     tol: f64,
     /// Algorithm.
@@ -59,6 +59,10 @@ struct Row {
     iterations: Option<usize>,
     error: Option<f64>,
     error_scale_free: Option<f64>,
+    penetration: Option<f64>,
+    cone_slack: Option<f64>,
+    complementarity: Option<f64>,
+    slip_misalignment: Option<f64>,
     status: &'static str,
     cpu_s: Option<f64>,
     norm_u: Option<f64>,
@@ -128,6 +132,10 @@ fn unreadable(path: &Path, reason: String) -> Row {
         iterations: None,
         error: None,
         error_scale_free: None,
+        penetration: None,
+        cone_slack: None,
+        complementarity: None,
+        slip_misalignment: None,
         status: UNREADABLE,
         cpu_s: None,
         norm_u: None,
@@ -149,6 +157,10 @@ fn row(path: &Path, settings: &SolveSettings, clock: &MeanClock) -> Row {
         iterations: Some(outcome.iterations),
         error: Some(outcome.error),
         error_scale_free: Some(outcome.error_scale_free),
+        penetration: Some(outcome.errors.penetration),
+        cone_slack: Some(outcome.errors.cone),
+        complementarity: Some(outcome.errors.complementarity),
+        slip_misalignment: Some(outcome.errors.slip),
         status: if converged { CONVERGED } else { NOT_CONVERGED },
         cpu_s: Some(cpu),
         norm_u: Some(outcome.u.iter().map(|x| x * x).sum::<f64>().sqrt()),
@@ -162,10 +174,16 @@ fn worst_contact(outcome: &Outcome, tolerance: f64) -> String {
     }
     let contacts = outcome.diagnostics.iter().enumerate();
     let worst = contacts.max_by(|a, b| a.1.error.total_cmp(&b.1.error));
-    worst.map_or_else(
-        || format!("above {tolerance:e}"),
-        |(k, d)| format!("above {tolerance:e}; worst: contact {k}, {:?}", d.status),
-    )
+    let parts = outcome.errors.parts().into_iter();
+    let part = parts.max_by(|a, b| a.1.total_cmp(&b.1));
+    let mut text = format!("above {tolerance:e}");
+    if let Some((name, error)) = part {
+        let _ = write!(text, "; {name} {error:.1e}");
+    }
+    if let Some((k, d)) = worst {
+        let _ = write!(text, "; worst: contact {k}, {:?}", d.status);
+    }
+    text
 }
 
 /// Measures a solve by its mean over as many runs as the clock needs to see it.
@@ -222,20 +240,24 @@ fn json(rows: &[Row]) -> String {
     text + "\n"
 }
 
-const HEADS: [&str; 9] = [
+const HEADS: [&str; 13] = [
     "file",
     "contacts",
     "method",
     "iterations",
     "error",
     "scale-free",
+    "penetration",
+    "cone",
+    "complement.",
+    "slip",
     "status",
     "cpu_s",
     "norm_u",
 ];
 
 /// The columns of [`HEADS`] that are words: file, method, status.
-const WORDS: [usize; 3] = [0, 2, 6];
+const WORDS: [usize; 3] = [0, 2, 10];
 
 fn table(rows: &[Row]) -> String {
     let mut lines = vec![HEADS.map(str::to_owned).to_vec()];
@@ -268,6 +290,10 @@ fn cells(row: &Row) -> [String; HEADS.len()] {
         count(row.iterations),
         small(row.error),
         small(row.error_scale_free),
+        small(row.penetration),
+        small(row.cone_slack),
+        small(row.complementarity),
+        small(row.slip_misalignment),
         row.status.to_owned(),
         row.cpu_s
             .map_or_else(|| "-".to_owned(), |x| format!("{x:.2e}")),

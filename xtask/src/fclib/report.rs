@@ -11,8 +11,8 @@ pub(super) fn markdown(studies: &[Study]) -> String {
     let mut text = "# The contact solver on the problems of other codes\n\n\
         Made by `cargo xtask fclib` (folder of the files: its argument, `FCLIB_DIR`, or `../shared/fclib`). Every solve starts\n\
         from zero, runs on one thread and may take 20000 sweeps or projections, `newton` 200 steps. A cell gives CPU seconds where the\n\
-        problem is solved, that is, where both errors, recomputed from the reactions, are within the tolerance (the measure of\n\
-        Siconos and the scale-free one, see [solvers](../theory/solvers.md)); otherwise, in italics, the larger error that was left.\n\n\
+        problem is solved, that is, where all errors, recomputed from the reactions, are within the tolerance (see\n\
+        [solvers](../theory/solvers.md)); otherwise, in italics, the larger of the measure of Siconos and the scale-free one.\n\n\
         ![Performance profiles](fclib_profile.svg)\n\n\
         Share of the problems solved within so many times the CPU time of the best method for each.\n"
         .to_owned();

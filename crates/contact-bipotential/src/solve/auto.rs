@@ -1,7 +1,9 @@
 //! The method that chooses and falls back.
 
+use crate::cone;
 use crate::delassus::Delassus;
 use crate::error_measure::ErrorMeasure;
+use crate::local::{Vector, store};
 use crate::problem::ContactProblem;
 use crate::solve::gauss_seidel::{Kernel, Sweeper};
 use crate::solve::iterate::Iterate;
@@ -20,6 +22,22 @@ const PAYS: f64 = 0.2;
 const SWEEPS_PART: usize = 3;
 /// Newton steps for one iteration of [`SolveSettings::max_iterations`]: a step costs some ten sweeps.
 const NEWTON_PART: usize = 10;
+
+/// Rows up to which other starts are tried in the end, with a part of the Newton steps of the budget: one over this.
+const RESTART_ROWS: usize = 150;
+const RESTART_PART: usize = 2;
+/// Sizes of the reactions of the other starts over what `q` asks for \[-\]: of the solutions the small ones are wanted.
+const RESTART_SIZES: [f64; 8] = [0.1, 1.0, 0.01, 1.0, 3.0, 1.0, 10.0, 1.0];
+/// Steps of Newton's method and of the proximal one from each.
+const RESTART_NEWTON: usize = 20;
+const RESTART_STEPS: usize = 120;
+const RESTART_PLAN: ProximalPlan = plan(1.0, 6, 4.0);
+/// Fractions of their multiples fill a cube evenly: powers of the inverse of the real root of `x^4 = x + 1`.
+const SPREAD: [f64; 3] = [
+    0.819_172_513_396_164_4,
+    0.671_043_606_703_789_2,
+    0.549_700_477_901_970_3,
+];
 
 /// One attempt: what is tried, when, with how much of the budget.
 struct Attempt {
@@ -124,6 +142,23 @@ pub(crate) fn auto<const D: usize>(
         uzawa::<D>(problem, measure, best, tolerance, budget, true, work);
         return Method::UzawaAnderson;
     }
+    attempts::<D>(problem, measure, best, settings, work);
+    if work.newton_steps > 0 {
+        Method::Proximal
+    } else {
+        Method::GaussSeidel
+    }
+}
+
+/// Everything that needs entries of `W`, until the errors are within the tolerance.
+fn attempts<const D: usize>(
+    problem: &ContactProblem,
+    measure: &ErrorMeasure<'_>,
+    best: &mut Iterate,
+    settings: &SolveSettings,
+    work: &mut Work,
+) {
+    let (tolerance, budget) = (settings.tolerance, settings.max_iterations);
     let dense = matches!(problem.w, Delassus::Dense(_));
     let cold = best.errors.scale_free > WARM || best.r.iter().all(|x| *x == 0.0);
     let sweeper = Sweeper::<D>::new(problem, Kernel::Exact);
@@ -163,11 +198,65 @@ pub(crate) fn auto<const D: usize>(
             }
         }
     }
-    if work.newton_steps > 0 {
-        Method::Proximal
-    } else {
-        Method::GaussSeidel
+    if !best.is_within(tolerance) && problem.q.len() <= RESTART_ROWS {
+        let system = system.get_or_insert_with(prepare);
+        restarts(problem, measure, system, best, settings, work);
     }
+}
+
+/// Tries again from other points: the errors of a hyperstatic problem have local minima, which no patience leaves.
+fn restarts<const D: usize>(
+    problem: &ContactProblem,
+    measure: &ErrorMeasure<'_>,
+    system: &mut NewtonSystem<'_, D>,
+    best: &mut Iterate,
+    settings: &SolveSettings,
+    work: &mut Work,
+) {
+    let tolerance = settings.tolerance;
+    let most = work.newton_steps + settings.max_iterations / NEWTON_PART / RESTART_PART;
+    for (k, size) in RESTART_SIZES.iter().enumerate() {
+        if best.is_within(tolerance) || work.newton_steps >= most {
+            return;
+        }
+        let mut x = Iterate::new(measure, &restart::<D>(problem, measure, k, *size));
+        newton(measure, system, &mut x, tolerance, RESTART_NEWTON, work);
+        let plan = &RESTART_PLAN;
+        proximal::<D>(
+            measure,
+            system,
+            &mut x,
+            tolerance,
+            plan,
+            RESTART_STEPS,
+            work,
+        );
+        best.keep_better(&x);
+    }
+}
+
+/// Start number `k`: reactions in the cone, of `size` \[-\] over the largest `q` in the energy norm, spread evenly over
+/// directions by multiples of irrational numbers, so that every run draws the same.
+fn restart<const D: usize>(
+    problem: &ContactProblem,
+    measure: &ErrorMeasure<'_>,
+    k: usize,
+    size: f64,
+) -> Vec<f64> {
+    let roots = measure.roots();
+    let speed = |(i, q): (usize, &f64)| q.abs() / roots[i / D];
+    let largest = problem.q.iter().enumerate().map(speed).fold(0.0, f64::max);
+    let mut r = vec![0.0; problem.q.len()];
+    for c in 0..roots.len() {
+        let mut z = Vector::<D>::zeros();
+        for i in 0..D {
+            let draw = ((k * roots.len() + c + 1) as f64 * SPREAD[i]).fract();
+            z[i] = if i == D - 1 { draw } else { 2.0 * draw - 1.0 };
+        }
+        let reaction = cone::project(problem.mu[c], &z) * (size * largest / roots[c]);
+        store(&mut r, c, &reaction);
+    }
+    r
 }
 
 /// At least `few` sweeps, and more while they pay.

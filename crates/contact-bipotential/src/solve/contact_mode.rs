@@ -1,5 +1,6 @@
 //! What a contact does in a step of the semismooth Newton method, and what of its reaction may change then.
 
+use crate::law::NATURAL;
 use crate::local::{Vector, tangential_norm};
 
 /// What a contact does in one Newton step.
@@ -11,9 +12,14 @@ pub(crate) enum Mode<const D: usize> {
 }
 
 impl<const D: usize> Mode<D> {
+    /// The mode by `z = r - v / w`. Beyond `mu = 1` the normal part takes `v_n / (mu w)`: there `mu r_n` is as large as
+    /// `r_t`, and a velocity that is small beside it must not look like an endless friction force.
     #[inline]
     pub(crate) fn of(mu: f64, w: f64, r: &Vector<D>, v: &Vector<D>) -> Self {
-        let z = r - v / w;
+        let mut z = r - v / w;
+        if mu > NATURAL {
+            z[D - 1] = r[D - 1] - v[D - 1] / (w * mu);
+        }
         let (length, radius) = (tangential_norm(&z), mu * z[D - 1]);
         if z[D - 1] <= 0.0 {
             return Mode::Free;

@@ -66,8 +66,7 @@ impl Method {
 pub struct SolveSettings {
     /// The algorithm.
     pub method: Method,
-    /// Both errors ([`Errors::siconos`] and [`Errors::scale_free`]) must be at or below this \[-\]. Below about 1e-13
-    /// rounding decides.
+    /// All errors ([`Errors::worst`]) must be at or below this \[-\]. Below about 1e-13 rounding decides.
     pub tolerance: f64,
     /// Largest number of iterations of the method: sweeps, Newton steps or projections. [`Method::Auto`] takes it for
     /// its sweeps and a tenth of it for its Newton steps.
@@ -110,7 +109,7 @@ impl SolveSettings {
 /// Whether the problem is solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SolveStatus {
-    /// Both errors, recomputed from `r`, are within the tolerance.
+    /// All errors, recomputed from `r`, are within the tolerance.
     Converged,
     /// They are not; `r` is the best point met.
     NotConverged,
@@ -153,6 +152,8 @@ pub struct Outcome {
     pub error: f64,
     /// [`Errors::scale_free`] of `r`.
     pub error_scale_free: f64,
+    /// All errors of `r`: success is claimed by [`Errors::worst`].
+    pub errors: Errors,
     /// `u = W r + q`.
     pub u: Vec<f64>,
     /// Per contact, only when not converged.
@@ -177,6 +178,7 @@ impl Outcome {
             work: Work::default(),
             error: f64::MAX,
             error_scale_free: f64::MAX,
+            errors: Errors::WORST,
             u: vec![0.0; size],
             diagnostics: Vec::new(),
             refusal: Some(refusal),
@@ -194,12 +196,8 @@ impl Outcome {
     ) -> Outcome {
         r.copy_from_slice(&best.r);
         let mut u = best.u;
-        let Errors {
-            siconos,
-            scale_free,
-            ..
-        } = measure.evaluate(r, &mut u);
-        let converged = siconos <= tolerance && scale_free <= tolerance;
+        let errors = measure.certify(r, &mut u, tolerance);
+        let converged = errors.worst() <= tolerance;
         if !u.iter().all(|x| x.is_finite()) {
             u.fill(0.0);
         }
@@ -212,8 +210,9 @@ impl Outcome {
             method,
             iterations: work.sweeps + work.newton_steps + work.projections,
             work,
-            error: siconos,
-            error_scale_free: scale_free,
+            error: errors.siconos,
+            error_scale_free: errors.scale_free,
+            errors,
             diagnostics: if converged {
                 Vec::new()
             } else {

@@ -9,7 +9,7 @@
 mod slip_root;
 
 use crate::cone;
-use crate::law::{Status, natural_map};
+use crate::law::{NATURAL, Status, natural_map, violation};
 use crate::local::{Matrix, Vector, inverse, solve_small, tangential_norm};
 
 use slip_root::SlipRoot;
@@ -262,7 +262,7 @@ impl<const D: usize> SingleContact<D> {
         }
     }
 
-    /// Scale-free residual: `F` with `rho = 1` over the largest of `b`, `r`, `u`.
+    /// Scale-free residual: how far `r` is from the law with `rho = 1`, over the largest of `b`, `r`, `u`.
     #[inline]
     fn residual(&self, r: &Vector<D>, b: &Vector<D>, mu: f64) -> f64 {
         residual(mu, &self.u(r, b), r)
@@ -374,11 +374,15 @@ impl<const D: usize> SingleContact<D> {
 
 #[inline(always)]
 fn residual<const D: usize>(mu: f64, u: &Vector<D>, r: &Vector<D>) -> f64 {
-    let f = natural_map(mu, 1.0, u, r);
+    let f = if mu <= NATURAL {
+        natural_map(mu, 1.0, u, r).amax()
+    } else {
+        violation(mu, u, r)
+    };
     let size = 1.0_f64.max(r.amax()).max(u.amax());
     // The maximum forgets NaN, the sum does not.
-    let finite = (f.sum() + u.sum()).is_finite();
-    if finite { f.amax() / size } else { f64::MAX }
+    let finite = (f + r.sum() + u.sum()).is_finite();
+    if finite { f / size } else { f64::MAX }
 }
 
 /// The largest power of two not above `x > 0`.

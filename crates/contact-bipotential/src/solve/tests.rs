@@ -4,7 +4,9 @@ use faer::Mat;
 use proptest::prelude::*;
 
 use super::*;
-use crate::conformance::{brick_wall, check_law, check_outcome, half_space, scaled};
+use crate::conformance::{
+    brick_wall, check_law, check_outcome, drawn_problem, exact_error, half_space, scaled,
+};
 use crate::delassus::DelassusOperator;
 use crate::error::ContactError;
 
@@ -204,6 +206,89 @@ fn a_problem_without_solution_is_reported() {
         // The Siconos norm alone is fooled: r grows without end, and the error is divided by it.
         assert!(!outcome.is_converged(), "{method:?} {outcome:?}");
     }
+}
+
+#[test]
+fn no_coefficient_of_friction_hides_a_penetration() {
+    for mu in [1e3, 1e9, 1e30, 1e300] {
+        let w = Delassus::Dense(Mat::identity(3, 3));
+        let held = ContactProblem::new(w, vec![0.5, 0.0, -1.0], vec![mu], Cone::Spatial).unwrap();
+        let nothing = crate::errors(&held, &[0.0; 3]);
+        assert!(nothing.penetration > 0.5 && nothing.scale_free > 0.5);
+        let (r, _) = solved(&held, 1e-12);
+        assert_eq!(r, [-0.5, 0.0, 1.0]);
+        // Elastic bodies, dragged along: all that is pressed sticks, and u has its rounding.
+        let dragged = half_space(5, mu, 1e-2, 1e-2);
+        let (r, outcome) = solved(&dragged, 1e-9);
+        assert!(exact_error(&dragged, &r) <= 1e-9);
+        let pressed = |c: &usize| r[3 * c + 2] > 0.0;
+        assert!((0..25).filter(pressed).count() > 3);
+        for c in (0..25).filter(pressed) {
+            assert!(outcome.u[3 * c].abs() < 1e-10, "{mu} {c}");
+        }
+    }
+}
+
+/// Problems of the random family on which rounding once passed for a solution.
+const ONCE_FALSE: [(Method, &[u64]); 2] = [
+    (Method::Auto, &[20, 38, 353, 578, 627, 630, 692]),
+    (Method::Newton, &[353, 578, 660, 800, 1193, 3407, 3941]),
+];
+
+#[test]
+fn successes_hold_in_twice_the_digits() {
+    let tolerance = 1e-8;
+    let all: Vec<u64> = (0..30).collect();
+    for (method, known) in ONCE_FALSE {
+        for &index in known.iter().chain(&all) {
+            let drawn = drawn_problem(1, index);
+            let mut r = Vec::new();
+            let outcome = solve(&drawn.problem, &mut r, &settings(method, tolerance));
+            check_outcome(&drawn.problem, &r, &outcome, tolerance).unwrap();
+            let exact = exact_error(&drawn.problem, &r);
+            assert!(
+                !outcome.is_converged() || exact <= 1.001 * tolerance,
+                "{index} {method:?} {exact:e} {:?}",
+                outcome.errors
+            );
+            if let Some(solution) = drawn.solution {
+                assert!(exact_error(&drawn.problem, &solution) < 1e-13, "{index}");
+            }
+        }
+    }
+}
+
+#[test]
+fn entries_that_cancel_round_where_reactions_do_not() {
+    // Beside a compliance of 1, entries of 1e8 that cancel: rounded, u = 0 and r looks exact; it is off by 1e-9.
+    let entries = [
+        (0, 0, 1.0),
+        (0, 1, 1e8),
+        (0, 2, -1e8),
+        (1, 1, 1.0),
+        (2, 2, 1.0),
+    ];
+    let w = Delassus::from_entries(3, 1, &entries).unwrap();
+    let mut hidden = 0;
+    for k in 1..20 {
+        let start = vec![1.0, 1.0 + f64::from(k) * f64::EPSILON, 1.0];
+        let mut q = vec![0.0; 3];
+        w.times(&start, &mut q);
+        q.iter_mut().for_each(|q| *q = -*q);
+        let problem = ContactProblem::new(w.clone(), q, vec![0.0; 3], Cone::Frictionless).unwrap();
+        let tolerance = 1e-10;
+        hidden += usize::from(exact_error(&problem, &start) > tolerance);
+        for method in [Method::Auto, Method::Newton, Method::GaussSeidel] {
+            let mut r = start.clone();
+            let outcome = solve(&problem, &mut r, &settings(method, tolerance));
+            let exact = exact_error(&problem, &r);
+            assert!(
+                !outcome.is_converged() || exact <= tolerance,
+                "{k} {exact:e}"
+            );
+        }
+    }
+    assert!(hidden > 3, "{hidden}");
 }
 
 #[derive(Debug)]

@@ -1,14 +1,20 @@
-//! Siconos `.dat`: whitespace-separated numbers.
+//! Siconos `.dat`: whitespace-separated numbers, of a local problem (`W`, `q`, `mu`) or a global one (`M`, `H`, `q`,
+//! `b`, `mu`).
+
+mod words;
 
 use std::path::Path;
 
-use contact_bipotential::{Cone, ContactProblem, Delassus};
+use contact_bipotential::{Cone, ContactProblem, Delassus, GlobalProblem, SparseEntries};
 
-use super::{FclibError, LARGEST_SIZE, turned, turned_entries};
+use super::{FclibError, normal_last, turned, turned_entries};
+
+use words::Words;
 
 type Entries = Vec<(usize, usize, f64)>;
 
-/// Parses the text of a problem; `path` is only for messages.
+/// Parses the text of a problem; `path` is only for messages. A global problem (`M v = H r + q`, `u = H^T v + b`) is
+/// reduced to a local one. What follows the last number is refused.
 ///
 /// # Errors
 /// [`FclibError::Text`] with the line, [`FclibError::Problem`] for numbers that make no problem.
@@ -19,74 +25,161 @@ pub fn parse(path: &Path, bytes: &[u8]) -> Result<ContactProblem, FclibError> {
         return Err(words.error(format!("dimension {dim}: give 1, 2 or 3")));
     }
     let contacts = words.integer("number of contacts")?;
-    let storage = words.integer("storage")?;
-    let size = words.size("rows of W", dim * contacts)?;
-    words.size("columns of W", size)?;
-    let mut entries = match storage {
-        0 => dense(&mut words, size)?,
-        1 => blocks(&mut words, contacts, dim)?,
-        2 => printed(&mut words, size)?,
-        _ => {
-            return Err(words.error(format!(
-                "storage {storage}: 0 (dense), 1 (blocks) and 2 (sparse) are known"
-            )));
-        }
-    };
+    let first = matrix(&mut words, "W", None)?;
+    if first.rows != first.columns {
+        return Err(words.error(format!(
+            "the first matrix has {} rows and {} columns: W of a local problem is square, and so is M of a global one",
+            first.rows, first.columns
+        )));
+    }
+    if is_global(&words, &first, dim * contacts) {
+        global(words, first, dim, contacts)
+    } else {
+        local(words, first, dim, contacts)
+    }
+}
+
+/// `q` and `mu` after `W`.
+fn local(
+    mut words: Words<'_>,
+    w: SparseEntries,
+    dim: usize,
+    contacts: usize,
+) -> Result<ContactProblem, FclibError> {
+    let size = dim * contacts;
+    if w.rows != size {
+        return Err(words.error(format!(
+            "W has {} rows where {dim} times {contacts} contacts are needed, and no H of {} rows and {size} columns \
+             follows it, as in a global problem",
+            w.rows, w.rows
+        )));
+    }
+    let mut entries = w.entries;
     turned_entries(&mut entries, dim);
     let q = words.numbers("q", size)?;
     let mu = words.numbers("mu", contacts)?;
-    let problem = |source| FclibError::Problem {
-        path: path.to_owned(),
-        source,
+    words.end("mu")?;
+    let cone = Cone::from_dim(dim).map_err(|e| words.problem(e))?;
+    let w = Delassus::from_entries(contacts, dim, &entries).map_err(|e| words.problem(e))?;
+    ContactProblem::new(w, turned(&q, dim), mu, cone).map_err(|e| words.problem(e))
+}
+
+/// `H`, `q`, `b` and `mu` after `M`.
+fn global(
+    mut words: Words<'_>,
+    m: SparseEntries,
+    dim: usize,
+    contacts: usize,
+) -> Result<ContactProblem, FclibError> {
+    let (rows, size) = (m.rows, dim * contacts);
+    if words.left() == size + contacts {
+        return Err(words.error(format!(
+            "the {size} numbers of q and {contacts} of mu that follow W begin like the header of an H, as in a global \
+             problem: write them with a decimal point"
+        )));
+    }
+    let mut h = matrix(&mut words, "H", Some([rows, size]))?;
+    for e in &mut h.entries {
+        e.1 = normal_last(e.1, dim);
+    }
+    let q = words.numbers("q", rows)?;
+    let b = words.numbers("b", size)?;
+    let mu = words.numbers("mu", contacts)?;
+    words.end("mu")?;
+    let cone = Cone::from_dim(dim).map_err(|e| words.problem(e))?;
+    let global = GlobalProblem::new(m, h, q, turned(&b, dim), mu, cone);
+    global.reduce().map_err(|e| words.problem(e))
+}
+
+/// Whether the header of an `H` follows: three integers, the last two of which are known.
+fn is_global(words: &Words<'_>, m: &SparseEntries, size: usize) -> bool {
+    let mut ahead = words.clone();
+    let mut next = || ahead.integer("header of H").ok();
+    next().is_some_and(|storage| storage <= 2) && next() == Some(m.rows) && next() == Some(size)
+}
+
+/// Storage, numbers of rows and columns, then the matrix as that storage writes it; `known` are the sizes that it can
+/// only have.
+fn matrix(
+    words: &mut Words<'_>,
+    name: &str,
+    known: Option<[usize; 2]>,
+) -> Result<SparseEntries, FclibError> {
+    let storage = words.integer(&format!("storage of {name}"))?;
+    let mut sizes = [0; 2];
+    for (k, what) in ["rows", "columns"].iter().enumerate() {
+        let what = format!("{what} of {name}");
+        sizes[k] = match known {
+            Some(known) => words.size(&what, known[k])?,
+            None => words.integer(&what)?,
+        };
+    }
+    let [rows, columns] = sizes;
+    let entries = match storage {
+        0 => dense(words, name, rows, columns)?,
+        1 => blocks(words, name, rows, columns)?,
+        2 => printed(words, name, rows, columns)?,
+        _ => {
+            return Err(words.error(format!(
+                "storage {storage} of {name}: 0 (dense), 1 (blocks) and 2 (sparse) are known"
+            )));
+        }
     };
-    let cone = Cone::from_dim(dim).map_err(problem)?;
-    let w = Delassus::from_entries(contacts, dim, &entries).map_err(problem)?;
-    ContactProblem::new(w, turned(&q, dim), mu, cone).map_err(problem)
+    Ok(SparseEntries::new(rows, columns, entries))
 }
 
 /// `size0 size1`, then all values by columns.
-fn dense(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
-    words.size("rows of the dense W", size)?;
-    words.size("columns of the dense W", size)?;
-    let values = words.numbers("W", size.saturating_mul(size))?;
+fn dense(
+    words: &mut Words<'_>,
+    name: &str,
+    rows: usize,
+    columns: usize,
+) -> Result<Entries, FclibError> {
+    words.size(&format!("rows of the dense {name}"), rows)?;
+    words.size(&format!("columns of the dense {name}"), columns)?;
+    let values = words.numbers(name, rows.saturating_mul(columns))?;
     Ok(values
         .iter()
         .enumerate()
         .filter(|(_, x)| **x != 0.0)
-        .map(|(k, &x)| (k % size, k / size, x))
+        .map(|(k, &x)| (k % rows, k / rows, x))
         .collect())
 }
 
 /// Compressed rows of blocks.
-fn blocks(words: &mut Words<'_>, contacts: usize, dim: usize) -> Result<Entries, FclibError> {
+fn blocks(
+    words: &mut Words<'_>,
+    name: &str,
+    rows: usize,
+    columns: usize,
+) -> Result<Entries, FclibError> {
     let count = words.integer("number of blocks")?;
-    words.size("rows of blocks", contacts)?;
-    words.size("columns of blocks", contacts)?;
-    for what in ["row sizes", "column sizes"] {
-        for c in 1..=contacts {
-            words.size(what, c * dim)?;
-        }
-    }
-    words.size("length of the row pointers", contacts + 1)?;
+    let (high, wide) = (
+        words.integer("rows of blocks")?,
+        words.integer("columns of blocks")?,
+    );
+    let row_ends = ends(words, &format!("row sizes of {name}"), high, rows)?;
+    let column_ends = ends(words, &format!("column sizes of {name}"), wide, columns)?;
+    words.size("length of the row pointers", high + 1)?;
     words.size("length of the column indices", count)?;
-    let pointers = words.integers("row pointers", contacts + 1)?;
-    let columns = words.integers("columns of blocks", count)?;
-    if pointers[0] != 0 || pointers[contacts] != count || pointers.windows(2).any(|p| p[0] > p[1]) {
+    let pointers = words.integers("row pointers", high + 1)?;
+    let places = words.integers("columns of blocks", count)?;
+    if pointers[0] != 0 || pointers[high] != count || pointers.windows(2).any(|p| p[0] > p[1]) {
         return Err(words.error(format!(
             "row pointers do not rise from 0 to the {count} blocks"
         )));
     }
-    if let Some(c) = columns.iter().find(|c| **c >= contacts) {
-        return Err(words.error(format!("block column {c} of {contacts} contacts")));
+    if let Some(c) = places.iter().find(|c| **c >= wide) {
+        return Err(words.error(format!("block column {c} of {wide}")));
     }
     let mut entries = Vec::new();
-    for row in 0..contacts {
+    for row in 0..high {
         for k in pointers[row]..pointers[row + 1] {
             words.size("index of a block", k)?;
-            for j in 0..dim {
-                for i in 0..dim {
-                    let value = words.number("block of W")?;
-                    entries.push((row * dim + i, columns[k] * dim + j, value));
+            for j in column_ends[places[k]]..column_ends[places[k] + 1] {
+                for i in row_ends[row]..row_ends[row + 1] {
+                    let value = words.number(&format!("block of {name}"))?;
+                    entries.push((i, j, value));
                 }
             }
         }
@@ -94,8 +187,28 @@ fn blocks(words: &mut Words<'_>, contacts: usize, dim: usize) -> Result<Entries,
     Ok(entries)
 }
 
+/// Where blocks end, from 0 on: sums that rise to `all`.
+fn ends(
+    words: &mut Words<'_>,
+    what: &str,
+    count: usize,
+    all: usize,
+) -> Result<Vec<usize>, FclibError> {
+    let mut ends = vec![0];
+    ends.extend(words.integers(what, count)?);
+    if ends.windows(2).any(|e| e[0] >= e[1]) || ends[count] != all {
+        return Err(words.error(format!("{what} do not rise from 0 to {all}")));
+    }
+    Ok(ends)
+}
+
 /// A print-out of a sparse matrix by columns: `col j : locations a to b`, then `row : value` for each.
-fn printed(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
+fn printed(
+    words: &mut Words<'_>,
+    name: &str,
+    rows: usize,
+    columns: usize,
+) -> Result<Entries, FclibError> {
     let kind = words.integer("kind of sparse matrix")?;
     if kind != 2 {
         return Err(words.error(format!(
@@ -106,9 +219,9 @@ fn printed(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
     let count = count.map_err(|_| words.error("nnz: is not followed by a count".to_owned()))?;
     let mut entries = Entries::new();
     words.after("1-norm:")?;
-    for column in 0..size {
+    for column in 0..columns {
         for expected in ["col", "", ":", "locations"] {
-            let word = words.next("column of W")?;
+            let word = words.next(&format!("column of {name}"))?;
             if !expected.is_empty() && word != expected {
                 return Err(words.error(format!(
                     "'{word}' where '{expected}' of column {column} should stand"
@@ -124,136 +237,22 @@ fn printed(words: &mut Words<'_>, size: usize) -> Result<Entries, FclibError> {
             )));
         }
         for _ in first..end as usize {
-            let row = words.integer("row of W")?;
-            if row >= size {
-                return Err(words.error(format!("row {row} of {size}")));
+            let row = words.integer(&format!("row of {name}"))?;
+            if row >= rows {
+                return Err(words.error(format!("row {row} of {rows}")));
             }
             words.next(":")?;
-            let value = words.number("W")?;
+            let value = words.number(name)?;
             entries.push((row, column, value));
         }
     }
+    if entries.len() < count {
+        return Err(words.error(format!(
+            "{} entries of {name} where {count} are announced",
+            entries.len()
+        )));
+    }
     Ok(entries)
-}
-
-/// The words of a text with the line each stands on.
-struct Words<'a> {
-    path: &'a Path,
-    rest: &'a str,
-    line: usize,
-}
-
-impl<'a> Words<'a> {
-    fn new(path: &'a Path, bytes: &'a [u8]) -> Result<Self, FclibError> {
-        let text = std::str::from_utf8(bytes).map_err(|e| {
-            let line = 1 + bytes[..e.valid_up_to()]
-                .iter()
-                .filter(|b| **b == b'\n')
-                .count();
-            FclibError::Text {
-                path: path.to_owned(),
-                line,
-                reason: "not text".to_owned(),
-            }
-        })?;
-        Ok(Words {
-            path,
-            rest: text,
-            line: 1,
-        })
-    }
-
-    fn error(&self, reason: String) -> FclibError {
-        FclibError::Text {
-            path: self.path.to_owned(),
-            line: self.line,
-            reason,
-        }
-    }
-
-    fn next(&mut self, what: &str) -> Result<&'a str, FclibError> {
-        let start = self.rest.find(|c: char| !c.is_ascii_whitespace());
-        let Some(start) = start else {
-            return Err(self.error(format!("the file ends where {what} should stand")));
-        };
-        self.line += self.rest.as_bytes()[..start]
-            .iter()
-            .filter(|b| **b == b'\n')
-            .count();
-        let rest = &self.rest[start..];
-        let end = rest
-            .find(|c: char| c.is_ascii_whitespace())
-            .unwrap_or(rest.len());
-        self.rest = &rest[end..];
-        Ok(&rest[..end])
-    }
-
-    /// The word after `marker`.
-    fn after(&mut self, marker: &str) -> Result<&'a str, FclibError> {
-        while self.next(marker)? != marker {}
-        self.next(marker)
-    }
-
-    fn signed(&mut self, what: &str) -> Result<i64, FclibError> {
-        let word = self.next(what)?;
-        word.parse()
-            .map_err(|_| self.error(format!("{what} is '{}', not an integer", shown(word))))
-    }
-
-    fn integer(&mut self, what: &str) -> Result<usize, FclibError> {
-        let value = self.signed(what)?;
-        match usize::try_from(value) {
-            Ok(n) if n <= LARGEST_SIZE => Ok(n),
-            _ => Err(self.error(format!("{what} is {value}, outside of 0..={LARGEST_SIZE}"))),
-        }
-    }
-
-    /// An integer that can only be `expected`.
-    fn size(&mut self, what: &str, expected: usize) -> Result<usize, FclibError> {
-        let found = self.integer(what)?;
-        if found == expected {
-            Ok(found)
-        } else {
-            Err(self.error(format!("{what}: {found} where {expected} is needed")))
-        }
-    }
-
-    fn number(&mut self, what: &str) -> Result<f64, FclibError> {
-        let word = self.next(what)?;
-        match word.parse::<f64>() {
-            Ok(x) if x.is_finite() => Ok(x),
-            Ok(x) => Err(self.error(format!("{what} holds {x}: every number must be finite"))),
-            Err(_) => Err(self.error(format!("{what} holds '{}', not a number", shown(word)))),
-        }
-    }
-
-    /// Refuses a count that the rest of the file is too short for, before anything is reserved.
-    fn fits(&self, what: &str, count: usize) -> Result<(), FclibError> {
-        if count > self.rest.len() {
-            return Err(self.error(format!(
-                "{what} needs {count} numbers, the file ends {} bytes on",
-                self.rest.len()
-            )));
-        }
-        Ok(())
-    }
-
-    fn numbers(&mut self, what: &str, count: usize) -> Result<Vec<f64>, FclibError> {
-        self.fits(what, count)?;
-        (0..count).map(|_| self.number(what)).collect()
-    }
-
-    fn integers(&mut self, what: &str, count: usize) -> Result<Vec<usize>, FclibError> {
-        self.fits(what, count)?;
-        (0..count).map(|_| self.integer(what)).collect()
-    }
-}
-
-/// Characters of a wrong word that an error repeats, as long as any number: a file may be one endless word.
-const LONGEST_SHOWN: usize = 24;
-
-fn shown(word: &str) -> String {
-    word.chars().take(LONGEST_SHOWN).collect()
 }
 
 #[cfg(test)]
@@ -262,6 +261,14 @@ mod tests {
 
     const DENSE: &str = "3\n1\n0\n3\n3\n3 3\n15 -1 -2\n-1 14 1\n-2 1 16\n-1 2 3\n0.1\n";
     const BLOCKS: &str = "2 2 1 4 4 3 2 2 2 4 2 4 3 3 0 2 3 0 1 1\n0 1 2 3 4\n1 5 6 7 8\n2 9 0 0 9\n-1 2 -3 4\n.5 .25";
+    /// `M = diag(1, 2, 4)`, `H` the identity in three storages: `M v = H r + q`, `u = H^T v + b`.
+    const GLOBAL: [&str; 3] = [
+        "3 1 0 3 3 3 3\n1 0 0 0 2 0 0 0 4\n0 3 3 3 3\n1 0 0 0 1 0 0 0 1\n-1 1 0\n0 0 8\n.3\n",
+        "3 1 0 3 3 3 3\n1 0 0 0 2 0 0 0 4\n1 3 3 2 2 1 1 3 3 3 2 0 1 2 0 0\n0 1 0 0\n1 0 0 1 0 0 1\n-1 1 0\n0 0 8\n.3\n",
+        "3 1 0 3 3 3 3\n1 0 0 0 2 0 0 0 4\n2 3 3 2\nPrinter\n3-by-3, nzmax: 3 nnz: 3, 1-norm: 1\n\
+         col 0 : locations 0 to 0\n0 : 1\ncol 1 : locations 1 to 1\n1 : 1\ncol 2 : locations 2 to 2\n2 : 1\n\
+         -1 1 0\n0 0 8\n.3\n",
+    ];
     const PRINTED: &str = "2\n1\n2\n2\n2\n2\nPrinter 1\n2-by-2, nzmax: 3 nnz: 3, 1-norm: 9\n\
                            col 0 : locations 0 to 1\n0 : 3\n1 : 1\ncol 1 : locations 2 to 2\n1 : 4\n-1 2\n.3\n";
 
@@ -299,8 +306,54 @@ mod tests {
     }
 
     #[test]
+    fn a_global_problem_is_reduced() {
+        for text in GLOBAL {
+            let p = read(text).unwrap();
+            let w = p.w.to_dense();
+            // Normal first in the file, last here: q = M^-1 (-1, 1, 0) + (0, 0, 8).
+            assert_eq!(
+                [w[(0, 0)], w[(1, 1)], w[(2, 2)]],
+                [0.5, 0.25, 1.0],
+                "{text}"
+            );
+            assert_eq!((p.q, p.mu), (vec![0.5, 8.0, -1.0], vec![0.3]));
+        }
+        // More unknowns than contact rows: a mass that the contact does not see.
+        let wide = "1 1 0 2 2 2 2\n2 0 0 5\n0 2 1 2 1\n1 0\n-1 7\n0\n.3\n";
+        let p = read(wide).unwrap();
+        assert_eq!((p.w.to_dense()[(0, 0)], p.q[0]), (0.5, -0.5));
+    }
+
+    #[test]
+    fn what_is_left_over_is_refused() {
+        for text in [DENSE, BLOCKS, PRINTED].iter().chain(&GLOBAL) {
+            let lines = text.lines().count() + usize::from(text.ends_with('\n'));
+            fails(
+                &format!("{text} 5 6"),
+                &format!("line {lines}: '5' and 1 more words follow mu"),
+            );
+        }
+        // Some versions end their files with a flag; nothing follows it.
+        assert!(read(&format!("{DENSE}1\n")).is_ok());
+        fails(&format!("{DENSE}1 1\n"), "'1' and 1 more words follow mu");
+        // A global problem cut to the length of a local one.
+        fails(&GLOBAL[0][..39], "write them with a decimal point");
+        // A local W with one number too many before mu, and one that is not square.
+        fails(&DENSE.replace("-1 2 3", "-1 2 3 4"), "follow mu");
+        fails("1 1 0 2 1 2 1 1 1", "2 rows and 1 columns");
+        fails(
+            "1 1 0 2 2 2 2 1 0 0 1 1 2 .3",
+            "no H of 2 rows and 1 columns",
+        );
+        fails(
+            &PRINTED.replace("nnz: 3", "nnz: 4"),
+            "3 entries of W where 4",
+        );
+    }
+
+    #[test]
     fn every_truncation_is_an_error() {
-        for text in [DENSE, BLOCKS, PRINTED] {
+        for text in [DENSE, BLOCKS, PRINTED].iter().chain(&GLOBAL) {
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
             for k in 0..words.len() {
                 assert!(read(&words[..k].join(" ")).is_err(), "{k} words of {text}");

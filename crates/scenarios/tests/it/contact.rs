@@ -44,6 +44,8 @@ fn a_folder_of_problems_is_solved_and_tabulated() {
     );
     let rows = rows(&out);
     let expected = [
+        "complementarity",
+        "cone_slack",
         "contacts",
         "cpu_s",
         "error",
@@ -52,6 +54,8 @@ fn a_folder_of_problems_is_solved_and_tabulated() {
         "iterations",
         "method",
         "norm_u",
+        "penetration",
+        "slip_misalignment",
         "status",
     ];
     let mut keys: Vec<&String> = rows[0].as_object().unwrap().keys().collect();
@@ -69,6 +73,23 @@ fn a_folder_of_problems_is_solved_and_tabulated() {
 }
 
 #[test]
+fn a_global_problem_is_solved_as_one() {
+    let folder = fresh_folder("contact_global");
+    // M = diag(1, 2, 2), H = I, q = (-1, 1, 0), b = 0, normal first: it slides with u = (0, .35, 0).
+    let matrices = "0 3 3 3 3\n1 0 0 0 2 0 0 0 2\n0 3 3 3 3\n1 0 0 0 1 0 0 0 1\n";
+    let text = format!("3 1\n{matrices}-1 1 0\n0 0 0\n.3\n");
+    std::fs::write(folder.join("global.dat"), &text).unwrap();
+    std::fs::write(folder.join("more.dat"), text + "7\n").unwrap();
+    let out = setae(&["contact", "global.dat", "more.dat", "--json"], &folder);
+    assert_eq!(out.status.code(), Some(2));
+    let rows = rows(&out);
+    assert_eq!(rows[0]["status"], "converged");
+    assert!((rows[0]["norm_u"].as_f64().unwrap() - 0.35).abs() < 1e-12);
+    let reason = rows[1]["reason"].as_str().unwrap();
+    assert!(reason.contains("more.dat, line 9: '7'"), "{reason}");
+}
+
+#[test]
 fn what_is_not_solved_is_said() {
     let folder = fresh_folder("contact_unsolved");
     // Nothing can push this contact out: no reaction moves it.
@@ -83,6 +104,30 @@ fn what_is_not_solved_is_said() {
         "{}",
         rows[0]
     );
+}
+
+#[test]
+fn friction_without_bound_holds_what_is_pressed() {
+    let folder = fresh_folder("contact_friction");
+    for mu in ["1e9", "1e30", "1e300"] {
+        let text = format!("3 1 0 3 3\n3 3\n1 0 0\n0 1 0\n0 0 1\n-1 0.5 0\n{mu}\n");
+        std::fs::write(folder.join("held.dat"), text).unwrap();
+        let out = setae(&["contact", "held.dat", "--json"], &folder);
+        assert_eq!(out.status.code(), Some(0));
+        // r = (1, -.5, 0) leaves nothing of u = q.
+        assert_eq!(rows(&out)[0]["norm_u"], 0.0, "{mu}");
+    }
+    let none = [
+        "contact",
+        "held.dat",
+        "--method",
+        "uzawa",
+        "--max-iterations",
+        "1",
+    ];
+    let out = setae(&none, &folder);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&out.stdout).contains("; penetration "));
 }
 
 #[test]

@@ -17,7 +17,7 @@ const LEAST: f64 = -16.0;
 pub(super) fn markdown(studies: &[Study]) -> String {
     let mut text = "# Error against time of the contact methods\n\n\
         Made by `cargo xtask precision contact`. Every solve starts from zero, runs on one thread and may take 20000 sweeps or\n\
-        projections, `newton` 200 steps. A column is a tolerance on both errors, that of Siconos and the scale-free one (see\n\
+        projections, `newton` 200 steps. A column is a tolerance on all errors of a solution (see\n\
         [solvers](../theory/solvers.md)); a cell gives CPU seconds, the mean over many solves where one is short. The first\n\
         tolerance that a method does not reach ends its row: in italics the scale-free error, recomputed from the reactions,\n\
         that was left. The half-space has a `W` of full rank, that of the wall is a quarter of its size in rank at most.\n\
