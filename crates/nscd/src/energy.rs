@@ -1,9 +1,10 @@
 //! The energy audit of a step: every term by its own formula.
 
+use contact_bipotential::Cone;
 use nalgebra::Vector3;
 
 use crate::flat::{difference, dot};
-use crate::local::relative_velocity;
+use crate::local::{relative_displacement, relative_velocity};
 use crate::newton_iterate::NewtonIterate;
 use crate::report::EnergyTerms;
 use crate::scheme::{ContactLevel, Inertia};
@@ -33,6 +34,33 @@ pub(crate) fn audit(
     contact_terms(step, iterate, end.moved, end.contacts, &mut terms);
     bond_terms(step, iterate, end.adhesive_energy, &mut terms);
     terms
+}
+
+/// Energy that friction may make in a step, over what is stored \[-\]: in the hundreds of steps of a run together no
+/// more than what a run is allowed, and so much that it is rare.
+const NO_WORK: f64 = 1e-6;
+
+/// Marks the contacts that make energy by friction, where friction in sum does at a converged iterate; true if there is
+/// a new one.
+pub(crate) fn mark_turned(step: &StepProblem<'_>, iterate: &mut NewtonIterate) -> bool {
+    let cone = iterate.map.cone();
+    if cone == Cone::Frictionless || iterate.r.iter().all(|r| *r == 0.0) {
+        return false;
+    }
+    let moved = relative_displacement(step, &iterate.map, &iterate.u);
+    let work = |k: usize| dot(&iterate.r[cone.tangents(k)], &moved[cone.tangents(k)]);
+    let works: Vec<f64> = (0..iterate.map.len()).map(work).collect();
+    let stored = step.now.kinetic_energy + step.now.strain_energy.abs();
+    if works.iter().sum::<f64>() <= NO_WORK * stored {
+        return false;
+    }
+    iterate.turned.resize(works.len(), false);
+    let mut is_new = false;
+    for (turned, work) in iterate.turned.iter_mut().zip(works) {
+        is_new |= work > 0.0 && !*turned;
+        *turned |= work > 0.0;
+    }
+    is_new
 }
 
 /// Everything but contact.
@@ -87,15 +115,24 @@ fn contact_terms(
         terms.friction -= (r[0] - bond[0]) * slip[0] + (r[1] - bond[1]) * slip[1];
         match step.model.scheme.contact {
             ContactLevel::Velocity => {
-                // An impulse works on the mean of the velocities before and after it, whatever way the scheme takes.
-                let way = step.dt * velocity[cone.normal(k)];
+                let way = impact_way(
+                    step,
+                    velocity[cone.normal(k)],
+                    contacts[k].normal_velocity,
+                    dx[2],
+                );
                 terms.impact -= r[2] * way;
                 terms.gap_error += r[2] * (way - dx[2]);
             }
             ContactLevel::Position => {
                 let before = step.now.contact(c.key());
                 let closing = before.map_or(c.gap - dx[2], |b| b.gap) - c.gap;
-                terms.impact += (r[2] - bond[2]) * closing;
+                let loss = (r[2] - bond[2]) * closing;
+                if is_press_fit(step, closing) {
+                    terms.load_work -= loss;
+                } else {
+                    terms.impact += loss;
+                }
                 let told = r[0] * slip[0] + r[1] * slip[1] - r[2] * closing;
                 terms.gap_error += told - r.dot(&dx);
                 // What the bond is told about its start and where the pair started may differ for a new pair.
@@ -103,6 +140,21 @@ fn contact_terms(
             }
         }
     }
+}
+
+/// Whether a contact that opens by `-closing` \[m\] takes out an overlap of the start of an equilibrium path: a press
+/// fit, whose work comes from outside.
+fn is_press_fit(step: &StepProblem<'_>, closing: f64) -> bool {
+    let is_still = step.model.scheme.inertia == Inertia::QuasiStatic;
+    is_still && step.now.last_dt.is_none() && closing < 0.0
+}
+
+/// Way of an impulse \[m\], from the mean normal velocity of the step, that at its end and the displacement `dx`: it
+/// works on the mean of the velocities before and after it, whatever way the scheme takes. A contact that parted at the
+/// start has no impact, and its force works on the displacement.
+fn impact_way(step: &StepProblem<'_>, mean: f64, end: f64, dx: f64) -> f64 {
+    let start = 2.0 * mean - end;
+    if start < 0.0 { step.dt * mean } else { dx }
 }
 
 /// Mean of the relative velocities before and after the step, in the frames of the contacts \[m/s\].

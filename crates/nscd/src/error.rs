@@ -113,6 +113,23 @@ pub enum NscdError {
         /// Reach of the search \[m\].
         reach: f64,
     },
+    /// A node of an interface that starts so deep inside its master that pushing it out would make energy.
+    #[error(
+        "{nodes} nodes of interface \"{interface}\" start inside their master, node {node} {depth:e} m deep (allowed: {allowed:e} m): a \
+         motion would get its energy from nothing; start the bodies apart, or let a quasi-static run press them together"
+    )]
+    StartsInside {
+        /// How many nodes.
+        nodes: usize,
+        /// The deepest of them.
+        node: u32,
+        /// Name of the interface.
+        interface: String,
+        /// Its depth \[m\].
+        depth: f64,
+        /// The depth that is allowed there \[m\].
+        allowed: f64,
+    },
     /// Velocity-level contact without velocities.
     #[error(
         "velocity-level contact needs inertia; use position-level contact for a quasi-static run"

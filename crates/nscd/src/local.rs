@@ -25,16 +25,43 @@ pub(crate) fn local_variable(
             x
         }
         ContactLevel::Velocity => {
-            let rate = step.model.scheme.velocity_rate(step.dt);
+            let scheme = &step.model.scheme;
+            let rate = scheme.velocity_rate(step.dt);
             let start = relative_velocity(step, map, &step.now.v);
             let mut x = relative_velocity(step, map, v);
             for (k, c) in map.contacts.iter().enumerate() {
                 let n = cone.normal(k);
-                x[n] += step.model.interfaces[c.interface].restitution * start[n].min(0.0);
+                // A contact that parts and is pressed all the same may not close further in the step: held at the speed
+                // with which it parts, it would be pushed along its way, and its force would make energy.
+                x[n] += match start[n] {
+                    closing if closing < 0.0 => {
+                        step.model.interfaces[c.interface].restitution * closing
+                    }
+                    parting => scheme.start_weight() * parting,
+                };
             }
             x.iter_mut().for_each(|x| *x /= rate);
             x
         }
+    }
+}
+
+/// Lets friction act on the slip of the step where `turned` says so, instead of on the end velocity; `x` is
+/// [`local_variable`] at the velocity level \[m\].
+pub(crate) fn turn_slips(
+    step: &StepProblem<'_>,
+    map: &ContactMap,
+    turned: &[bool],
+    u: &[f64],
+    x: &mut [f64],
+) {
+    if !turned.contains(&true) {
+        return;
+    }
+    let cone = map.cone();
+    let moved = relative_displacement(step, map, u);
+    for k in (0..map.len()).filter(|k| turned[*k]) {
+        x[cone.tangents(k)].copy_from_slice(&moved[cone.tangents(k)]);
     }
 }
 

@@ -33,6 +33,8 @@ pub(crate) struct NewtonIterate {
     pub(crate) bonds: Vec<BondStep>,
     /// Local variable of the contact law of each candidate (slip and gap) \[m\].
     pub(crate) x: Vec<f64>,
+    /// Candidates whose friction acts on the slip of the step instead of on the end velocity; empty where none does.
+    pub(crate) turned: Vec<bool>,
     /// Force of each candidate, like `x` \[N\].
     pub(crate) r: Vec<f64>,
     /// `H^T r` \[N\].
@@ -55,6 +57,7 @@ impl NewtonIterate {
             chattering: None,
             bonds: Vec::new(),
             x: Vec::new(),
+            turned: Vec::new(),
             r: Vec::new(),
             contact_force: zeros(),
             pending,

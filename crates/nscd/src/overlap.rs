@@ -7,6 +7,7 @@ use contact_bipotential::Contact;
 use crate::error::{NscdError, Side, StepFailure};
 use crate::model::Model;
 use crate::report::{Overlap, Phase};
+use crate::scheme::Inertia;
 use crate::search::ContactSearch;
 use crate::state::State;
 use crate::tally::Tally;
@@ -15,6 +16,10 @@ use hull::{Hull, Inside, sorted};
 
 /// Depth over the search distance that nodes of a master, which may enter the slave, must not have at first \[-\].
 const DEEP: f64 = 2.0;
+
+/// Depth over the shortest edge of the elements around it at which a node may start inside its master in a motion
+/// \[-\]: what facets are off a curved surface at an angle of five degrees an element.
+const START_DEPTH: f64 = 1e-2;
 
 /// Knows the bodies behind the deformable masters, and looks for slave nodes in them.
 #[derive(Debug)]
@@ -58,6 +63,34 @@ impl<'m> OverlapCheck<'m> {
             }
         }
         Ok(())
+    }
+
+    /// Refuses a motion that starts with nodes inside their master that contacts would push out, making energy from
+    /// nothing: deeper than a part of the elements around them, of the shortest edges `element_size` \[m\].
+    pub(crate) fn refuse_kick(
+        &self,
+        search: &mut ContactSearch<'_>,
+        element_size: &[f64],
+    ) -> Result<(), NscdError> {
+        let model = self.model;
+        if model.scheme.inertia == Inertia::QuasiStatic || model.interfaces.is_empty() {
+            return Ok(());
+        }
+        let mut u = vec![0.0; model.dof_count()];
+        model.prescribe(0.0, &mut u);
+        let contacts = search.contacts_at(&model.positions(&u), 0.0);
+        let allowed = |c: &Contact| START_DEPTH * element_size[c.slave as usize];
+        let deep = contacts.iter().filter(|c| -c.gap > allowed(c));
+        let Some(deepest) = deep.clone().min_by(|a, b| a.gap.total_cmp(&b.gap)) else {
+            return Ok(());
+        };
+        Err(NscdError::StartsInside {
+            nodes: deep.filter(|c| c.interface == deepest.interface).count(),
+            node: deepest.slave,
+            interface: model.interfaces[deepest.interface].name.clone(),
+            depth: -deepest.gap,
+            allowed: allowed(deepest),
+        })
     }
 
     fn refusal(&self, interface: usize, inside: Inside, side: Side) -> NscdError {

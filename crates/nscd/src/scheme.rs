@@ -128,6 +128,11 @@ impl Scheme {
         }
     }
 
+    /// Weight of the start velocity over that of the end velocity in the displacement of a step \[-\].
+    pub(crate) fn start_weight(&self) -> f64 {
+        (1.0 - self.theta) / self.theta
+    }
+
     pub(crate) fn weights(&self, dt: f64) -> Weights {
         let rate = self.velocity_rate(dt);
         let stiffness = self.force_weight();

@@ -12,8 +12,9 @@ use crate::bonds::{
 use crate::contact::ContactSolver;
 use crate::contact_stiffness::contact_stiffness;
 use crate::elements::Elements;
+use crate::energy::mark_turned;
 use crate::error::{NscdError, StepFailure};
-use crate::local::local_variable;
+use crate::local::{local_variable, turn_slips};
 use crate::memory::{ContactMemory, refuse_chattering};
 use crate::model::Model;
 use crate::monitor::Monitor;
@@ -106,6 +107,8 @@ impl<'m> Stepper<'m> {
         };
         let (search, tally) = (&mut stepper.search, &mut stepper.tally);
         stepper.overlap.refuse_start(search, tally)?;
+        let sizes = &stepper.scales.element_size;
+        stepper.overlap.refuse_kick(search, sizes)?;
         Ok(stepper)
     }
 
@@ -187,6 +190,9 @@ impl<'m> Stepper<'m> {
         loop {
             let (bodies, memory) = (&mut self.bodies, &self.memory);
             let check = monitor.check(&step, &iterate, bodies, memory, &self.scales)?;
+            if check.converged && self.turns_slips(&step, &mut iterate) {
+                continue;
+            }
             if check.converged {
                 let unforeseen = self.confirm(&step, &mut iterate)?;
                 self.tally.counters.stagnant_steps += u64::from(check.stagnant);
@@ -201,6 +207,23 @@ impl<'m> Stepper<'m> {
             self.apply(&step, &mut iterate, correction)?;
             self.tally.counters.newton_iterations += 1;
         }
+    }
+
+    /// At the velocity level friction opposes the end velocity; where a slip turns round in a step, it may push along
+    /// the way of the step and make energy. There, from now on, friction opposes that way. True if there is any more.
+    fn turns_slips(&self, step: &StepProblem<'_>, iterate: &mut NewtonIterate) -> bool {
+        if self.model.scheme.contact == ContactLevel::Position || !mark_turned(step, iterate) {
+            return false;
+        }
+        self.put_local_variable(step, iterate);
+        true
+    }
+
+    fn put_local_variable(&self, step: &StepProblem<'_>, iterate: &mut NewtonIterate) {
+        let NewtonIterate { map, u, v, .. } = &*iterate;
+        let mut x = local_variable(step, map, u, v);
+        turn_slips(step, map, &iterate.turned, u, &mut x);
+        iterate.x = x;
     }
 
     /// Takes note of an accepted or rejected step.
@@ -272,7 +295,7 @@ impl<'m> Stepper<'m> {
             (iterate.map, iterate.chattering) = self.memory.leave_out_chattering(found);
             iterate.bonds = bond_steps(step, &iterate.map, &iterate.u);
         }
-        iterate.x = local_variable(step, &iterate.map, &iterate.u, &iterate.v);
+        self.put_local_variable(step, iterate);
         iterate.r = self.memory.recall(&iterate.map);
         iterate.contact_force.fill(0.0);
         let force = &mut iterate.contact_force;

@@ -290,7 +290,9 @@ impl Observer for Recorder<'_> {
 /// Where in a scene to look for the cause of an error.
 fn place(error: &NscdError) -> String {
     match error {
-        NscdError::Overlap { interface, .. } => format!("interfaces.{interface}"),
+        NscdError::Overlap { interface, .. } | NscdError::StartsInside { interface, .. } => {
+            format!("interfaces.{interface}")
+        }
         _ => "time".to_owned(),
     }
 }

@@ -117,11 +117,15 @@ proptest! {
         let scale = run.totals.initial_energy;
         run.assert_audited(scale, 1e-9);
         let round_off = -1e-9 * scale;
-        if s.level == "Position" {
-            // The law holds between force and slip of the step. At the velocity level it holds at the end velocity, and
-            // the slip of a step that turns round may go against the force.
-            let friction = least(&run, |e| e.friction);
-            prop_assert!(friction >= round_off, "friction gives {friction} J\n{}", text(&s));
+        // At the position level the law holds between force and slip of the step. At the velocity level it holds at the
+        // end velocity, and the slip of a step that turns round may go against the force as far as 1e-6 of the energy.
+        let friction = least(&run, |e| e.friction);
+        let allowed = if s.level == "Position" { round_off } else { -2e-6 * scale };
+        prop_assert!(friction >= allowed, "friction gives {friction} J\n{}", text(&s));
+        if s.level == "Velocity" || !s.two_blocks {
+            // Gaps to a deformable master are curved, and those before a contact was seen are not known exactly.
+            let impact = least(&run, |e| e.impact);
+            prop_assert!(impact >= round_off, "closing contacts give {impact} J\n{}", text(&s));
         }
         if s.theta == s.xi {
             // Then force and slip of the damper are the same mean of start and end.

@@ -86,3 +86,85 @@ fn damping_that_hides_all_other_forces_is_refused() {
         assert!(told.contains(bound), "{told}");
     }
 }
+
+/// A soft block that turns and falls onto the ground `y = 0`.
+fn falling(bottom: f64, time: &str, interface: &str) -> String {
+    format!(
+        r#"(
+    title: "soft block on the ground",
+    materials: {{"m": (law: NeoHookean(E: 8.0e6, nu: 0.4), density: 2000.0)}},
+    bodies: {{"block": (mesh: Rectangle(min: (0.0, {bottom:e}), max: (0.5, {top:e}), cells: (2, 2), element: Quad9), material: "m",
+        velocity: (0.5, -1.0, 0.0), spin: (0.0, 0.0, 1.5))}},
+    loads: {{"weight": Gravity((0.0, -9.81, 0.0))}},
+    interfaces: {{"ground": (slave: "block.y_min", master: Plane(point: (0.0, 0.0, 0.0), normal: (0.0, 1.0, 0.0)), {interface})}},
+    time: (end: 0.4, dt: 0.004, {time}),
+    output: (fields_every: Never),
+)"#,
+        top = bottom + 0.5
+    )
+}
+
+/// Falls of a column over the largest energy of a run.
+fn deepest_fall(name: &str, column: &str) -> f64 {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let text = std::fs::read_to_string(folder.join("history.csv")).unwrap();
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let at = |name: &str| header.iter().position(|h| *h == name).unwrap();
+    let (column, kinetic) = (at(column), at("energy.kinetic"));
+    let (mut highest, mut fall, mut most) = (0.0_f64, 0.0_f64, 0.0_f64);
+    for line in lines {
+        let row: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
+        highest = highest.max(row[column]);
+        fall = fall.max(highest - row[column]);
+        most = most.max(row[kinetic]);
+    }
+    fall / most
+}
+
+#[test]
+fn a_soft_body_never_bounces_higher_than_it_falls() {
+    for (k, interface) in [
+        "restitution: 0.8",
+        "restitution: 1.0, mu: 0.3",
+        "restitution: 0.0, mu: 0.1",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let name = format!("bounce-{k}");
+        let done = run(&name, &falling(0.05, "contact: Velocity", interface), &[]);
+        assert_eq!((done.status, &done.reason), (Status::Completed, &None));
+        for column in ["dissipation.impact", "dissipation.friction"] {
+            let fall = deepest_fall(&name, column);
+            assert!(fall < 1e-5, "{interface}: {column} falls by {fall:e}");
+        }
+    }
+}
+
+#[test]
+fn a_motion_that_starts_inside_its_master_is_refused_and_a_press_fit_is_not() {
+    for time in [
+        "contact: Position",
+        "contact: Velocity",
+        "theta: 1.0, xi: 1.0",
+    ] {
+        for bottom in [-0.01, -7.0] {
+            let loaded = parse("inside", &falling(bottom, time, "mu: 0.0"), &[]).unwrap();
+            let told = scenarios::run(&loaded, &fresh_folder("inside"), &mut |_| {});
+            let told = told.unwrap_err().to_string();
+            for words in ["interfaces.ground", "start inside their master", "nothing"] {
+                assert!(told.contains(words), "{words} in {told}");
+            }
+        }
+        let touching = parse("touching", &falling(-1e-12, time, "mu: 0.0"), &[]).unwrap();
+        let done = scenarios::run(&touching, &fresh_folder("touching"), &mut |_| {}).unwrap();
+        assert_eq!(done.status, Status::Completed, "{:?}", done.reason);
+    }
+    let pressed = CARRIED.replace(
+        "time: (",
+        r#"interfaces: {"wall": (slave: "block.y_max", master: Plane(point: (0.0, 0.95, 0.0), normal: (0.0, -1.0, 0.0)))}, time: ("#,
+    );
+    let pressed = run("pressed", &pressed, &[]);
+    assert_eq!((pressed.status, pressed.reason), (Status::Completed, None));
+}
