@@ -131,6 +131,26 @@ fn friction_without_bound_holds_what_is_pressed() {
 }
 
 #[test]
+fn friction_without_bound_keeps_bodies_apart() {
+    for mu in ["1e14", "1e30"] {
+        let folder = fresh_folder(&format!("contact_sticks_{mu}"));
+        let mu = format!("mu={mu}");
+        let run = ["run", "impact", "--out", "out", "--quiet"];
+        let out = setae(
+            &[&run[..], &["--set", &mu, "--set", "end=0.7"]].concat(),
+            &folder,
+        );
+        assert_eq!(out.status.code(), Some(0), "{mu}");
+        let text = std::fs::read_to_string(folder.join("out/summary.json")).unwrap();
+        let summary: Value = serde_json::from_str(&text).unwrap();
+        // They once were .35 m inside of each other.
+        let depth = summary["max_penetration"].as_f64().unwrap();
+        assert!(depth < 1e-9, "{mu} {depth:e}");
+        assert!(!text.contains("\"contacts_max\": 0"), "{mu}");
+    }
+}
+
+#[test]
 fn every_method_has_its_name() {
     let folder = fresh_folder("contact_methods");
     std::fs::write(folder.join("a.dat"), SLIDING).unwrap();
