@@ -193,14 +193,15 @@ A run counts in every row whose extreme it has.\n\n\
 - **Rims.** A slave node that leaves its master over the rim is free, and one that comes and goes there with the iterations\n\
   stops the run (*rim*). Make the master larger than the slave; sides that may be touched belong to it.\n\
 - **Long steps.** They converge, but the time integration makes up energy. Follow the warning, not the convergence.\n\
-- **Velocity level.** Overlaps are kept, from the start or from contacts that were not foreseen; `max_penetration` is the deepest\n\
-  of all nodes. Start without overlap, or use the position level.\n\
+- **Velocity level.** Overlaps from contacts that were not foreseen are kept; `max_penetration` is the deepest of all nodes. Take shorter\n\
+  steps, or use the position level.\n\
 - **Bonds without viscosity** snap where they soften faster than the body follows (*snap*). Give them b > 0 or the body inertia.\n\
-- **No supports.** Without inertia a body that nothing holds is refused; one that contacts hold together with some support runs, and\n\
-  stops (*adrift*) when the contacts let go.\n\
+- **No supports.** Without inertia a body that nothing can touch is refused; one that contacts or bonds hold runs, and stops (*adrift*)\n\
+  when they let go.\n\
 - **Contact problems** that are not solved in the iterations allowed (2000 here, 20000 by default) cost most of the time of a\n\
   hopeless run. Lower `solver.max_contact_iterations` to fail sooner.\n\
-- **Overlap** of deformable bodies deeper than `search_distance` is refused before the first step; a contact that is lost on the way\n\
+- **Overlap** at the start is refused in dynamics where it is deeper than a hundredth of the shortest edge (it would be energy from\n\
+  nothing); without inertia it is a press fit, refused only where it is deeper than `search_distance`. A contact that is lost on the way\n\
   under its master stops the run (*contact lost*), and nodes that came in through a side that is no master are told in a warning at\n\
   the end. Start closer, or give the distance.\n\
 - **Self-contact** does not exist: a master that is crushed until its surface folds over itself may lose a slave in the fold.\n\
