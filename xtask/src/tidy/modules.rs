@@ -1,8 +1,8 @@
 //! Module circles: sibling modules of any folder look downwards only.
 //!
 //! Every path that starts at `crate`, `self`, `super` or a name brought in by `use` is followed to the module that
-//! defines what it names, through re-exports. Where the paths of two modules part, the two siblings get an arrow. A module may
-//! use what its own ancestors define, and an ancestor its descendants; tests may look anywhere.
+//! defines what it names, through re-exports. Where the paths of two modules part, the two siblings get an arrow. A
+//! module may use what its own ancestors define, and an ancestor its descendants; tests may look anywhere.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
